@@ -1,0 +1,123 @@
+//! What is recovered from a BTF: geometry and per-texel reflectance.
+
+use super::{Map, ShapeError};
+use crate::model::FitSettings;
+
+/// Per-texel reflectance f_r = ρ_d + ρ_s·(C·ω_i ω_o)^n, in π·f_r units (Lafortune et al. 1997; thesis eq. 3.3).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Svbrdf {
+    /// ρ_d per channel.
+    pub diffuse: Map<[f32; 3]>,
+    /// ρ_s per channel.
+    pub specular: Map<[f32; 3]>,
+    /// (C_x, C_y, C_z, n); the lobe's scale lives in C.
+    pub lobe: Map<[f32; 4]>,
+}
+
+/// How a texel's fit ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum FitStatus {
+    /// Still descending when the iterations ran out.
+    Running = 0,
+    /// The objective settled.
+    Converged = 1,
+    /// Nothing above the diffuse part: no lobe, ρ_s = 0.
+    NoSpecular = 2,
+    /// No step lowered the objective any more, however short.
+    Stalled = 3,
+}
+
+impl FitStatus {
+    /// All, in order of their codes.
+    pub const ALL: [Self; 4] = [Self::Running, Self::Converged, Self::NoSpecular, Self::Stalled];
+
+    /// From the code that kernels write; `None` for any other number.
+    #[must_use]
+    pub fn from_code(code: u32) -> Option<Self> {
+        Self::ALL.get(code as usize).copied()
+    }
+}
+
+/// Diagnostics of the Levenberg-Marquardt fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Mean squared residual at the start, reflectance².
+    pub objective_start: Map<f32>,
+    /// Mean squared residual at the end, reflectance².
+    pub objective: Map<f32>,
+    /// Steps tried.
+    pub iterations: Map<u32>,
+    /// How it ended, as [`FitStatus`] codes.
+    pub status: Map<u32>,
+}
+
+/// Where a material came from.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Provenance {
+    /// The source's name.
+    pub source: String,
+    /// Views and lights of the source.
+    pub views: usize,
+    /// Lights of the source.
+    pub lights: usize,
+    /// Samples of the source.
+    pub samples: usize,
+    /// The adapter that computed it.
+    pub adapter: String,
+    /// Version of overpaint.
+    pub version: String,
+    /// Settings of every stage.
+    pub settings: FitSettings,
+}
+
+/// A recovered material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Height in texel widths, positive outwards, mean zero.
+    pub height: Map<f32>,
+    /// Unit normals of the height field.
+    pub normal: Map<[f32; 3]>,
+    /// Photometric stereo's normals, before integration.
+    pub normal_measured: Map<[f32; 3]>,
+    /// Photometric stereo's albedo |g|.
+    pub albedo: Map<f32>,
+    /// Reflectance.
+    pub svbrdf: Svbrdf,
+    /// How the fit went.
+    pub fit: Fit,
+    /// Where it came from.
+    pub provenance: Provenance,
+}
+
+impl Material {
+    /// Columns and rows.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        [self.height.width(), self.height.height()]
+    }
+
+    /// Checks that every map covers the same plane.
+    ///
+    /// # Errors
+    /// [`ShapeError`] for the first that does not.
+    pub fn checked(self) -> Result<Self, ShapeError> {
+        let [width, height] = self.size();
+        let shapes = [
+            (self.normal.width(), self.normal.height()),
+            (self.normal_measured.width(), self.normal_measured.height()),
+            (self.albedo.width(), self.albedo.height()),
+            (self.svbrdf.diffuse.width(), self.svbrdf.diffuse.height()),
+            (self.svbrdf.specular.width(), self.svbrdf.specular.height()),
+            (self.svbrdf.lobe.width(), self.svbrdf.lobe.height()),
+            (self.fit.objective_start.width(), self.fit.objective_start.height()),
+            (self.fit.objective.width(), self.fit.objective.height()),
+            (self.fit.iterations.width(), self.fit.iterations.height()),
+            (self.fit.status.width(), self.fit.status.height()),
+        ];
+        match shapes.into_iter().find(|&shape| shape != (width, height)) {
+            Some((w, h)) => Err(ShapeError { width, height, expected: width * height, found: w * h }),
+            None => Ok(self),
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Plain containers: directions, the description of a BTF, texel maps, the material. Shapes are checked once, at
+//! construction.
+
+mod btf;
+mod direction;
+mod map;
+mod material;
+
+pub use btf::{Btf, BtfError, Pair, Transfer};
+pub use direction::Direction;
+pub use map::{Map, ShapeError};
+pub use material::{Fit, FitStatus, Material, Provenance, Svbrdf};

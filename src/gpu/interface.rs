@@ -1,0 +1,187 @@
+//! What a shader binds: declared by the host by name, read from the WGSL by reflection, and compared.
+//!
+//! Binding numbers exist in the WGSL alone.
+
+use super::{Field, GpuError, GpuValue, layout};
+
+/// How a shader reaches a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// `var<uniform>`: one parameter struct.
+    Uniform,
+    /// `var<storage, read>`: an array that is only read.
+    Read,
+    /// `var<storage, read_write>`: an array that is written.
+    ReadWrite,
+}
+
+/// One buffer that a shader binds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Resource {
+    /// The variable's name in the WGSL.
+    pub name: String,
+    /// How it is reached.
+    pub access: Access,
+    /// Bytes of one element (of the struct itself for a uniform).
+    pub stride: usize,
+    /// The element's fields.
+    pub fields: Vec<Field>,
+}
+
+impl Resource {
+    fn of<T: GpuValue>(name: &str, access: Access) -> Self {
+        Self { name: name.to_owned(), access, stride: size_of::<T>(), fields: T::fields() }
+    }
+
+    /// A `var<uniform>` of struct `T`.
+    #[must_use]
+    pub fn uniform<T: GpuValue>(name: &str) -> Self {
+        Self::of::<T>(name, Access::Uniform)
+    }
+
+    /// A `var<storage, read>` array of `T`.
+    #[must_use]
+    pub fn read<T: GpuValue>(name: &str) -> Self {
+        Self::of::<T>(name, Access::Read)
+    }
+
+    /// A `var<storage, read_write>` array of `T`.
+    #[must_use]
+    pub fn read_write<T: GpuValue>(name: &str) -> Self {
+        Self::of::<T>(name, Access::ReadWrite)
+    }
+}
+
+/// A parsed and validated shader.
+#[derive(Debug)]
+pub struct Reflection {
+    /// Its resources with their binding numbers, by number.
+    pub resources: Vec<(u32, Resource)>,
+    /// Invocations in a workgroup of its compute entry point, if it has one.
+    pub workgroup_size: Option<[u32; 3]>,
+}
+
+/// Parses and validates linked WGSL and lists what it binds.
+///
+/// # Errors
+/// [`GpuError::Shader`] with the validator's message, or if a resource is of a kind that this layer does not bind.
+pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
+    let invalid = |message: String| GpuError::Shader { name: name.to_owned(), message };
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
+    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    validator.validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
+
+    let mut resources = Vec::new();
+    for (_, global) in module.global_variables.iter() {
+        let Some(binding) = &global.binding else { continue };
+        let name = global.name.clone().unwrap_or_default();
+        let access = match global.space {
+            naga::AddressSpace::Uniform => Access::Uniform,
+            naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE) => Access::ReadWrite,
+            naga::AddressSpace::Storage { .. } => Access::Read,
+            _ => return Err(invalid(format!("\"{name}\" is neither a uniform nor a storage buffer"))),
+        };
+        if binding.group != 0 {
+            return Err(invalid(format!("\"{name}\" is in group {}; everything is bound in group 0", binding.group)));
+        }
+        let (element, stride) = match module.types[global.ty].inner {
+            naga::TypeInner::Array { base, stride, .. } => (base, stride as usize),
+            naga::TypeInner::Struct { span, .. } => (global.ty, span as usize),
+            _ => (global.ty, 0),
+        };
+        let fields = layout::wgsl_fields(&module, element)
+            .ok_or_else(|| invalid(format!("the elements of \"{name}\" are no 32-bit scalars, vectors or structs of them")))?;
+        resources.push((binding.binding, Resource { name, access, stride, fields }));
+    }
+    resources.sort_by_key(|(binding, _)| *binding);
+    let workgroup_size = module
+        .entry_points
+        .iter()
+        .find(|entry| entry.stage == naga::ShaderStage::Compute)
+        .map(|entry| entry.workgroup_size);
+    Ok(Reflection { resources, workgroup_size })
+}
+
+/// Checks the host's declaration against the WGSL: the same names, and for each the same access, stride and fields.
+///
+/// # Errors
+/// [`GpuError::Interface`] names the first difference.
+pub(super) fn compare(name: &str, wgsl: &[(u32, Resource)], host: &[Resource]) -> Result<(), GpuError> {
+    let differ = |what: String| Err(GpuError::Interface { name: name.to_owned(), what });
+    for (_, theirs) in wgsl {
+        let resource = &theirs.name;
+        let Some(ours) = host.iter().find(|ours| ours.name == theirs.name) else {
+            return differ(format!("the WGSL binds \"{resource}\", which the host does not declare"));
+        };
+        if ours.access != theirs.access {
+            return differ(format!("\"{resource}\" is {:?} in the WGSL and {:?} on the host", theirs.access, ours.access));
+        }
+        if ours.stride != theirs.stride {
+            return differ(format!("an element of \"{resource}\" has {} bytes in the WGSL and {} on the host", theirs.stride, ours.stride));
+        }
+        for index in 0..theirs.fields.len().max(ours.fields.len()) {
+            let (theirs, ours) = (theirs.fields.get(index), ours.fields.get(index));
+            if theirs != ours {
+                let show = |field: Option<&Field>| field.map_or("nothing".to_owned(), ToString::to_string);
+                return differ(format!("field {index} of \"{resource}\" is {} in the WGSL and {} on the host", show(theirs), show(ours)));
+            }
+        }
+    }
+    match host.iter().find(|ours| !wgsl.iter().any(|(_, theirs)| theirs.name == ours.name)) {
+        Some(missing) => differ(format!("the host declares \"{}\", which the WGSL does not bind", missing.name)),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    crate::gpu_struct! {
+        struct Params { width: u32, height: u32, scale: f32, _pad: u32 }
+    }
+
+    const TEXT: &str = "
+        struct Params { width: u32, height: u32, scale: f32, _pad: u32 }
+        @group(0) @binding(0) var<uniform> params: Params;
+        @group(0) @binding(1) var<storage, read> source: array<vec4<f32>>;
+        @group(0) @binding(2) var<storage, read_write> result: array<f32>;
+        @compute @workgroup_size(64) fn main() { result[0] = source[0].x * params.scale; }";
+
+    fn host() -> Vec<Resource> {
+        vec![Resource::uniform::<Params>("params"), Resource::read::<[f32; 4]>("source"), Resource::read_write::<f32>("result")]
+    }
+
+    fn difference(host: &[Resource]) -> String {
+        let wgsl = reflect("test", TEXT).expect("valid");
+        compare("test", &wgsl.resources, host).map_or_else(|error| error.to_string(), |()| String::new())
+    }
+
+    #[test]
+    fn equal_sides_agree() {
+        assert_eq!(difference(&host()), "");
+    }
+
+    #[test]
+    fn each_kind_of_difference_is_named() {
+        crate::gpu_struct! { struct Swapped { height: u32, width: u32, scale: f32, _pad: u32 } }
+        crate::gpu_struct! { struct Retyped { width: u32, height: u32, scale: u32, _pad: u32 } }
+        let cases: [(usize, Resource, &str); 6] = [
+            (0, Resource::uniform::<Swapped>("params"), "width: U32 x 1 at byte 0"),
+            (0, Resource::uniform::<Retyped>("params"), "scale: F32 x 1 at byte 8"),
+            (1, Resource::read::<f32>("source"), "16 bytes in the WGSL and 4"),
+            (1, Resource::read::<[u32; 4]>("source"), "F32 x 4"),
+            (2, Resource::read::<f32>("result"), "ReadWrite in the WGSL and Read"),
+            (2, Resource::read_write::<f32>("output"), "\"result\", which the host does not declare"),
+        ];
+        for (index, wrong, expected) in cases {
+            let mut host = host();
+            host[index] = wrong;
+            let message = difference(&host);
+            assert!(message.contains(expected), "{message}");
+        }
+        let mut more = host();
+        more.push(Resource::read::<f32>("extra"));
+        assert!(difference(&more).contains("\"extra\", which the WGSL does not bind"));
+    }
+}

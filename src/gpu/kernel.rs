@@ -1,0 +1,170 @@
+//! Compute kernels: built from a source, checked against their host's declaration, dispatched by the recorder.
+
+use std::num::NonZeroU64;
+
+use pollster::block_on;
+
+use super::{Access, Buffer, Gpu, GpuError, GpuValue, Resource, Source, interface, reflect};
+
+/// A buffer bound to a name for one dispatch.
+#[derive(Debug, Clone, Copy)]
+pub struct Bind<'a> {
+    name: &'a str,
+    raw: &'a wgpu::Buffer,
+    stride: usize,
+}
+
+/// Binds `buffer` to the WGSL variable `name`.
+#[must_use]
+pub fn bind<'a, T: GpuValue>(name: &'a str, buffer: &'a Buffer<T>) -> Bind<'a> {
+    Bind { name, raw: &buffer.raw, stride: size_of::<T>() }
+}
+
+/// How many threads a dispatch needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Grid {
+    /// Threads along the first axis, rounded up to whole workgroups. Folded over x and y of the dispatch where there are more
+    /// workgroups than one dimension holds; kernels recover the index with `thread_index`.
+    pub threads: usize,
+    /// Layers, in z of the dispatch.
+    pub layers: u32,
+}
+
+impl Grid {
+    /// One layer of `threads`.
+    #[must_use]
+    pub fn threads(threads: usize) -> Self {
+        Self { threads, layers: 1 }
+    }
+
+    /// `layers` layers of `threads`.
+    #[must_use]
+    pub fn layers(threads: usize, layers: u32) -> Self {
+        Self { threads, layers }
+    }
+}
+
+/// The layout and names shared by compute kernels and render passes.
+#[derive(Debug)]
+pub(super) struct Bindings {
+    pub(super) name: &'static str,
+    pub(super) layout: wgpu::BindGroupLayout,
+    resources: Vec<(u32, Resource)>,
+}
+
+/// Reads the shader's interface, checks the host's side against it, and builds module and layouts.
+pub(super) fn build(
+    gpu: &Gpu, source: &Source, library: &[Source], host: &[Resource], visibility: wgpu::ShaderStages,
+) -> Result<(Bindings, interface::Reflection, wgpu::ShaderModule, wgpu::PipelineLayout), GpuError> {
+    let text = source.link(library)?;
+    let reflection = reflect(source.name, &text)?;
+    interface::compare(source.name, &reflection.resources, host)?;
+    let entries: Vec<_> = reflection
+        .resources
+        .iter()
+        .map(|(binding, resource)| wgpu::BindGroupLayoutEntry {
+            binding: *binding,
+            visibility,
+            ty: wgpu::BindingType::Buffer {
+                ty: match resource.access {
+                    Access::Uniform => wgpu::BufferBindingType::Uniform,
+                    Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
+                    Access::ReadWrite => wgpu::BufferBindingType::Storage { read_only: false },
+                },
+                has_dynamic_offset: false,
+                min_binding_size: NonZeroU64::new(resource.stride as u64),
+            },
+            count: None,
+        })
+        .collect();
+    let layout = gpu
+        .device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(source.name), entries: &entries });
+    let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(source.name),
+        bind_group_layouts: &[Some(&layout)],
+        immediate_size: 0,
+    });
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(source.name),
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    });
+    let bindings = Bindings { name: source.name, layout, resources: reflection.resources.clone() };
+    Ok((bindings, reflection, module, pipeline_layout))
+}
+
+impl Bindings {
+    /// # Panics
+    /// If a name is missing, unknown, or bound to elements of another size: the host's bug.
+    pub(super) fn group(&self, gpu: &Gpu, binds: &[Bind<'_>]) -> wgpu::BindGroup {
+        let name = self.name;
+        for bind in binds {
+            assert!(self.resources.iter().any(|(_, resource)| resource.name == bind.name), "{name}: nothing is called \"{}\"", bind.name);
+        }
+        let entries: Vec<_> = self
+            .resources
+            .iter()
+            .map(|(binding, resource)| {
+                let Some(bind) = binds.iter().find(|bind| bind.name == resource.name) else {
+                    panic!("{name}: \"{}\" is not bound", resource.name)
+                };
+                assert_eq!(bind.stride, resource.stride, "{name}: bytes of an element of \"{}\"", resource.name);
+                wgpu::BindGroupEntry { binding: *binding, resource: bind.raw.as_entire_binding() }
+            })
+            .collect();
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(name), layout: &self.layout, entries: &entries })
+    }
+}
+
+/// A compute kernel, ready to be dispatched.
+#[derive(Debug)]
+pub struct Kernel {
+    pub(super) bindings: Bindings,
+    pub(super) pipeline: wgpu::ComputePipeline,
+    workgroup_threads: u32,
+    max_groups: u32,
+}
+
+impl Kernel {
+    /// Builds `source`, joined with what it imports from `library`, after checking `resources` against it.
+    ///
+    /// # Errors
+    /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
+    pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let (bindings, reflection, module, layout) = build(gpu, source, library, resources, wgpu::ShaderStages::COMPUTE)?;
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(source.name),
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        if let Some(error) = block_on(scope.pop()) {
+            return Err(GpuError::Shader { name: source.name.to_owned(), message: error.to_string() });
+        }
+        let workgroup_threads = reflection.workgroup_size.map_or(1, |size| size.iter().product());
+        Ok(Self { bindings, pipeline, workgroup_threads, max_groups: gpu.device.limits().max_compute_workgroups_per_dimension })
+    }
+
+    /// Stem of the kernel's file, by which its passes are timed.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.bindings.name
+    }
+
+    /// Workgroups along x, y and z for a grid.
+    pub(super) fn groups(&self, grid: Grid) -> Result<[u32; 3], GpuError> {
+        let groups = (grid.threads as u64).div_ceil(u64::from(self.workgroup_threads)).max(1);
+        let limit = u64::from(self.max_groups);
+        let rows = groups.div_ceil(limit);
+        if rows > limit || u64::from(grid.layers) > limit {
+            return Err(GpuError::GridTooLarge { kernel: self.name(), groups, limit: limit * limit });
+        }
+        // Even rows: no more than rows-1 workgroups are left without work.
+        let columns = groups.div_ceil(rows);
+        let to_u32 = |count: u64| u32::try_from(count).unwrap_or(u32::MAX);
+        Ok([to_u32(columns), to_u32(rows), grid.layers])
+    }
+}

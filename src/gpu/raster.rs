@@ -1,0 +1,130 @@
+//! Render passes: a vertex and a fragment stage over the same named buffers that kernels use.
+
+use pollster::block_on;
+
+use super::{Buffer, Gpu, GpuError, Recorder, Resource, Source, kernel};
+
+/// Format of every target: linear light, 32-bit float, premultiplied coverage in alpha.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+/// A render pass, ready to draw.
+#[derive(Debug)]
+pub struct Raster {
+    pub(super) bindings: kernel::Bindings,
+    pub(super) pipeline: wgpu::RenderPipeline,
+}
+
+impl Raster {
+    /// Builds `source` (entry points `vertex` and `fragment`), joined with what it imports from `library`, after
+    /// checking `resources` against it. Vertices come from their index alone.
+    ///
+    /// # Errors
+    /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
+    pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let (bindings, _, module, layout) = kernel::build(gpu, source, library, resources, wgpu::ShaderStages::VERTEX_FRAGMENT)?;
+        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(source.name),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(FORMAT.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        if let Some(error) = block_on(scope.pop()) {
+            return Err(GpuError::Shader { name: source.name.to_owned(), message: error.to_string() });
+        }
+        Ok(Self { bindings, pipeline })
+    }
+
+    /// Stem of the pass's file, by which it is timed.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.bindings.name
+    }
+}
+
+/// A picture to draw into: `[height][width]` RGBA, linear, 32-bit float.
+#[derive(Debug)]
+pub struct Target {
+    texture: wgpu::Texture,
+    pub(super) view: wgpu::TextureView,
+    width: u32,
+    height: u32,
+}
+
+impl Target {
+    /// A target of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] past the adapter's texture size, or [`GpuError::OutOfMemory`].
+    pub fn new(gpu: &Gpu, width: u32, height: u32) -> Result<Self, GpuError> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        let bytes = u64::from(width) * u64::from(height) * 16;
+        if width > limit || height > limit {
+            let limit = u64::from(limit) * u64::from(limit) * 16;
+            let label = format!("picture of {width} x {height}");
+            return Err(GpuError::TooLarge { label, bytes, adapter: gpu.adapter().name.clone(), limit, limit_name: "maxTextureDimension2D" });
+        }
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        if block_on(scope.pop()).is_some() {
+            return Err(GpuError::OutOfMemory { label: "picture".to_owned(), bytes });
+        }
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Ok(Self { texture, view, width, height })
+    }
+
+    /// Records a copy of the picture into a buffer `[height][row_pixels]`, rows padded as WebGPU asks; see [`Target::unpad`].
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] or [`GpuError::OutOfMemory`].
+    pub fn record_copy(&self, recorder: &mut Recorder<'_>) -> Result<Buffer<[f32; 4]>, GpuError> {
+        let pixels = recorder.gpu().zeros::<[f32; 4]>("picture read back", self.row_pixels() * self.height as usize)?;
+        recorder.encoder().copy_texture_to_buffer(
+            self.texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &pixels.raw,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: u32::try_from(self.row_pixels() * 16).ok(),
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d { width: self.width, height: self.height, depth_or_array_layers: 1 },
+        );
+        Ok(pixels)
+    }
+
+    /// Drops the padding of the rows: `[height][width]`.
+    #[must_use]
+    pub fn unpad(&self, padded: &[[f32; 4]]) -> Vec<[f32; 4]> {
+        padded.chunks_exact(self.row_pixels()).flat_map(|row| &row[..self.width as usize]).copied().collect()
+    }
+
+    fn row_pixels(&self) -> usize {
+        (self.width as usize).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize / 16)
+    }
+}

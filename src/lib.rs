@@ -1,0 +1,8 @@
+//! overpaint paints measured materials: a BTF in, a painted material out, on any GPU that wgpu reaches.
+
+pub mod data;
+pub mod gpu;
+pub mod model;
+pub mod reference;
+pub mod stage;
+pub mod wgsl;

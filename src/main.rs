@@ -1,0 +1,3 @@
+//! overpaint's command line.
+
+fn main() {}

@@ -1,0 +1,7 @@
+//! Physics and settings as plain types and f64 functions. No wgpu.
+
+mod boundary;
+mod settings;
+
+pub use boundary::Boundary;
+pub use settings::{FitSettings, SpecularScale};

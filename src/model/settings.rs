@@ -1,0 +1,49 @@
+//! Settings of the recovery, read by stages and twins alike.
+
+use super::Boundary;
+
+/// How ρ_s is found once the lobe is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpecularScale {
+    /// The least-squares ratio Σ s·lobe / Σ lobe²: of all factors the one with the smallest squared error.
+    #[default]
+    LeastSquares,
+    /// The thesis' mean of s/lobe (eq. 3.6) over samples whose lobe is above [`FitSettings::min_lobe`].
+    MeanRatio,
+}
+
+/// Everything that a user may set for `fit`.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct FitSettings {
+    /// What lies beyond the sample's edge.
+    pub boundary: Boundary,
+    /// Photometric stereo's slopes are held to at most this (tan of the angle to the plane's normal).
+    pub max_slope: f64,
+    /// Lights with cos θ_i below this carry no weight in the reflectance: division by the cosine would blow up their noise.
+    pub min_cos_light: f64,
+    /// ρ_d is this quantile of the reflectance (thesis: the 10th percentile).
+    pub diffuse_quantile: f64,
+    /// Steps of Levenberg-Marquardt at most.
+    pub max_iterations: u32,
+    /// How ρ_s is found.
+    pub specular_scale: SpecularScale,
+    /// For [`SpecularScale::MeanRatio`]: samples with a lobe below this fraction of 1 are left out.
+    pub min_lobe: f64,
+}
+
+impl Default for FitSettings {
+    fn default() -> Self {
+        Self {
+            boundary: Boundary::Periodic,
+            // 84°: beyond it a photograph from above says nothing of a slope.
+            max_slope: 10.0,
+            // 80°: keeps all of the usual grids (θ ≤ 75°) and leaves out what cannot be divided by.
+            min_cos_light: 0.17,
+            diffuse_quantile: 0.1,
+            max_iterations: 60,
+            specular_scale: SpecularScale::LeastSquares,
+            min_lobe: 0.01,
+        }
+    }
+}

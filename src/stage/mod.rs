@@ -1,0 +1,5 @@
+//! Host side of the compute stages, one file each.
+
+mod normals;
+
+pub use normals::Normals;

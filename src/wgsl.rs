@@ -1,0 +1,24 @@
+//! Every WGSL file, embedded. A file is a source by its stem; `#import STEM` joins it.
+
+use crate::gpu::Source;
+
+macro_rules! sources {
+    ($($(#[$meta:meta])* $name:ident = $folder:literal $stem:literal;)*) => {
+        $($(#[$meta])* pub const $name: Source = Source {
+            name: $stem,
+            path: concat!($folder, "/", $stem, ".wgsl"),
+            text: include_str!(concat!("../", $folder, "/", $stem, ".wgsl")),
+        };)*
+        /// All sources: the library that imports are looked up in.
+        pub const ALL: &[Source] = &[$($name),*];
+    };
+}
+
+sources! {
+    /// Index of a thread in a folded grid.
+    THREAD = "kernels/common" "thread";
+    /// Neighbours of a texel under a boundary rule.
+    BOUNDARY = "kernels/common" "boundary";
+    /// Normals of a height field.
+    NORMALS = "kernels" "normals";
+}

@@ -1,0 +1,114 @@
+//! What tests share: registration, the adapter, the data folder, comparison with a bound.
+
+pub mod random;
+
+use std::{
+    path::{Path, PathBuf},
+    sync::{Mutex, OnceLock},
+};
+
+use libtest_mimic::Trial;
+use overpaint::gpu::Gpu;
+
+/// Lists a file's tests by what they need: `plain` nothing, `gpu` an adapter, `data` the shared data, `gpu_data` both.
+#[macro_export]
+macro_rules! suite {
+    ($($need:ident: $($test:ident),+ $(,)?;)+) => {
+        pub fn tests() -> Vec<libtest_mimic::Trial> {
+            vec![$($($crate::support::$need(concat!(module_path!(), "::", stringify!($test)), $test)),+),+]
+        }
+    };
+}
+
+fn name(path: &str) -> String {
+    path.split_once("::").map_or(path, |(_, rest)| rest).to_owned()
+}
+
+/// A test that needs nothing.
+pub fn plain(path: &str, test: fn()) -> Trial {
+    Trial::test(name(path), move || {
+        test();
+        Ok(())
+    })
+}
+
+/// A test that needs an adapter.
+pub fn gpu(path: &str, test: fn(&Gpu)) -> Trial {
+    Trial::test(name(path), move || {
+        test(adapter());
+        Ok(())
+    })
+    .with_ignored_flag(gpu_is_declined())
+}
+
+/// A test that needs the shared data.
+pub fn data(path: &str, test: fn(&Path)) -> Trial {
+    Trial::test(name(path), move || {
+        test(&data_folder().expect("looked up before the test was listed"));
+        Ok(())
+    })
+    .with_ignored_flag(data_folder().is_none())
+}
+
+/// A test that needs an adapter and the shared data.
+pub fn gpu_data(path: &str, test: fn(&Gpu, &Path)) -> Trial {
+    Trial::test(name(path), move || {
+        test(adapter(), &data_folder().expect("looked up before the test was listed"));
+        Ok(())
+    })
+    .with_ignored_flag(gpu_is_declined() || data_folder().is_none())
+}
+
+fn gpu_is_declined() -> bool {
+    std::env::var("OVERPAINT_GPU").is_ok_and(|value| value == "none")
+}
+
+fn adapter() -> &'static Gpu {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    GPU.get_or_init(|| {
+        let name = std::env::var("OVERPAINT_ADAPTER").ok();
+        Gpu::open(name.as_deref()).unwrap_or_else(|error| panic!("{error}\n(OVERPAINT_GPU=none leaves out the tests that need an adapter)"))
+    })
+}
+
+/// The shared data set, if it is there.
+pub fn data_folder() -> Option<PathBuf> {
+    let named = std::env::var_os("OVERPAINT_DATA").map(PathBuf::from);
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    [named, Some(beside)].into_iter().flatten().find(|folder| folder.is_dir())
+}
+
+static FIGURES: Mutex<Vec<(String, f64, f64)>> = Mutex::new(Vec::new());
+
+/// Holds `worst` to `bound` and keeps both for the table printed at the end. NaN fails.
+#[track_caller]
+pub fn hold(what: &str, worst: f64, bound: f64) {
+    FIGURES.lock().expect("no test panics while it holds the lock").push((what.to_owned(), worst, bound));
+    assert!(worst <= bound, "{what}: {worst:.3e} exceeds its bound {bound:.3e}");
+}
+
+/// Largest absolute difference of two equally long lists; NaN if any value is not finite, or the lengths differ.
+pub fn worst_difference(found: impl IntoIterator<Item = f64>, expected: impl IntoIterator<Item = f64>) -> f64 {
+    let (mut found, mut expected) = (found.into_iter(), expected.into_iter());
+    let mut worst = 0.0_f64;
+    loop {
+        match (found.next(), expected.next()) {
+            (None, None) => return worst,
+            (Some(found), Some(expected)) if found.is_finite() && expected.is_finite() => worst = worst.max((found - expected).abs()),
+            _ => return f64::NAN,
+        }
+    }
+}
+
+/// The worst figure of every comparison that ran, beside its bound.
+pub fn print_figures() {
+    let mut figures = FIGURES.lock().expect("no test panics while it holds the lock").clone();
+    figures.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    figures.dedup_by(|later, first| later.0 == first.0);
+    if !figures.is_empty() {
+        println!("\nworst figure and bound of each comparison:");
+        for (what, worst, bound) in figures {
+            println!("  {worst:10.3e} <= {bound:9.3e}  {what}");
+        }
+    }
+}
