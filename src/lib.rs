@@ -2,6 +2,7 @@
 
 pub mod data;
 pub mod gpu;
+pub mod io;
 pub mod model;
 pub mod reference;
 pub mod stage;
