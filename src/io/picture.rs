@@ -2,7 +2,7 @@
 
 use std::{io::Cursor, path::Path};
 
-use exr::prelude::{FlatSamples, Image, ReadChannels, ReadLayers, SpecificChannels, Vec2, WritableImage};
+use exr::prelude::{Image, ReadChannels, ReadLayers, SpecificChannels, Vec2, WritableImage};
 use image::{ExtendedColorType, ImageFormat};
 
 use super::{IoError, staging::Staging};

@@ -1,7 +1,8 @@
 //! What must hold without a twin.
 
+mod color;
 mod normals;
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [normals::tests()].into_iter().flatten().collect()
+    [color::tests(), normals::tests()].into_iter().flatten().collect()
 }

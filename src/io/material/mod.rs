@@ -10,7 +10,7 @@ use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
 
 use serde_json::{Value, json};
 use zarrs::{
-    array::{Array, ArrayBuilder, ArrayBuilderFillValue, CodecOptions, Element, ElementOwned, codec::GzipCodec},
+    array::{Array, ArrayBuilder, CodecOptions, Element, ElementOwned, FillValue, codec::GzipCodec},
     filesystem::FilesystemStore,
     group::GroupBuilder,
 };
@@ -175,7 +175,7 @@ fn check_target(path: &Path) -> Result<(), IoError> {
 }
 
 /// A number that arrays hold.
-trait Number: Element + ElementOwned + Copy + Into<ArrayBuilderFillValue> {
+trait Number: Element + ElementOwned + Copy + Into<FillValue> {
     /// Its name in Zarr.
     const TYPE: &'static str;
     /// What a reader sees where a chunk is lost: a value that no map has.
@@ -213,7 +213,7 @@ impl Writer<'_> {
         let failed = |error: &dyn Display| fault(self.path, layout, ArrayFault::Zarr(error.to_string()));
         let gzip = GzipCodec::new(1).map_err(|error| failed(&error))?;
         let size = self.size.map(|side| side as u64);
-        let array = ArrayBuilder::new(layout.shape(size), layout.chunk(size), N::TYPE, N::FILL)
+        let array = ArrayBuilder::new(layout.shape(size), layout.chunk(size), N::TYPE, N::FILL.into())
             .bytes_to_bytes_codecs(vec![Arc::new(gzip)])
             .dimension_names(Some(layout.dimensions()))
             .attributes(layout.attributes())
