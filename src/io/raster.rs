@@ -1,7 +1,8 @@
 //! Encoded 8-bit images to texels.
 //!
 //! The format is told by the content, not the extension. A measurement must not contain guessed values, so JPEGs are
-//! decoded strictly: by default the decoder fills what is missing or damaged with gray and reports success.
+//! decoded strictly: by default the decoder fills what is missing or damaged with gray and reports success. JPEG has no
+//! checksum: damage that leaves valid codes goes unseen.
 
 use std::io::Cursor;
 
@@ -64,6 +65,8 @@ fn format(file: &str, bytes: &[u8]) -> Result<ImageFormat, IoError> {
 
 fn jpeg<'a>(file: &str, bytes: &'a [u8]) -> Result<(JpegDecoder<ZCursor<&'a [u8]>>, [usize; 2]), IoError> {
     let options = DecoderOptions::default().set_strict_mode(true).jpeg_set_out_colorspace(ColorSpace::RGBA);
+    // Sizes are judged by the callers, for all formats alike.
+    let options = options.set_max_width(usize::MAX).set_max_height(usize::MAX);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(|error| jpeg_error(file, bytes, &error))?;
     let (width, height) = decoder.dimensions().unwrap_or_default();

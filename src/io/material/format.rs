@@ -9,7 +9,7 @@ pub const MATERIAL_FORMAT: &str = "overpaint material";
 pub(super) const VERSION: u64 = 1;
 
 /// Rows and columns of a chunk, fewer where the plane has fewer.
-pub(super) const CHUNK: u64 = 256;
+pub(super) const CHUNK: usize = 256;
 
 /// One array of the group: `[row][column]` or `[row][column][component]`.
 pub(super) struct Layout {
@@ -69,13 +69,13 @@ pub(super) const NAMES: [&str; 11] = [
 
 impl Layout {
     /// `[rows, columns]` or `[rows, columns, components]`.
-    pub(super) fn shape(&self, [width, height]: [u64; 2]) -> Vec<u64> {
-        let components = self.components.map(|(_, names)| names.len() as u64);
-        [Some(height), Some(width), components].into_iter().flatten().collect()
+    pub(super) fn shape(&self, [width, height]: [usize; 2]) -> Vec<u64> {
+        let components = self.components.map(|(_, names)| names.len());
+        [Some(height), Some(width), components].into_iter().flatten().map(|side| side as u64).collect()
     }
 
     /// Shape of one chunk.
-    pub(super) fn chunk(&self, [width, height]: [u64; 2]) -> Vec<u64> {
+    pub(super) fn chunk(&self, [width, height]: [usize; 2]) -> Vec<u64> {
         self.shape([width.min(CHUNK), height.min(CHUNK)])
     }
 

@@ -13,6 +13,7 @@ use zarrs::{
     array::{Array, ArrayBuilder, CodecOptions, Element, ElementOwned, FillValue, codec::GzipCodec},
     filesystem::FilesystemStore,
     group::GroupBuilder,
+    plugin::{ExtensionName, ZarrVersion},
 };
 
 use format::Layout;
@@ -212,8 +213,7 @@ impl Writer<'_> {
         }
         let failed = |error: &dyn Display| fault(self.path, layout, ArrayFault::Zarr(error.to_string()));
         let gzip = GzipCodec::new(1).map_err(|error| failed(&error))?;
-        let size = self.size.map(|side| side as u64);
-        let array = ArrayBuilder::new(layout.shape(size), layout.chunk(size), N::TYPE, N::FILL.into())
+        let array = ArrayBuilder::new(layout.shape(self.size), layout.chunk(self.size), N::TYPE, N::FILL.into())
             .bytes_to_bytes_codecs(vec![Arc::new(gzip)])
             .dimension_names(Some(layout.dimensions()))
             .attributes(layout.attributes())
@@ -249,22 +249,35 @@ impl Reader<'_> {
             if expected == found { Ok(()) } else { Err(fault(self.path, layout, ArrayFault::Unexpected { what, expected, found })) }
         };
         let array = Array::open(self.store.clone(), &format!("/{}", layout.name)).map_err(|error| failed(&error))?;
-        let size = self.size.map(|side| side as u64);
-        let (shape, chunk) = (layout.shape(size), layout.chunk(size));
-        expect("data type", N::TYPE.to_owned(), array.data_type().to_string())?;
+        let (shape, chunk) = (layout.shape(self.size), layout.chunk(self.size));
+        expect("data type", N::TYPE.to_owned(), array.data_type().name(ZarrVersion::V3).unwrap_or_default().into_owned())?;
         expect("shape", format!("{shape:?}"), format!("{:?}", array.shape()))?;
         let origin = vec![0; shape.len()];
         let found: Vec<u64> = array.chunk_shape(&origin).map_err(|error| failed(&error))?.iter().map(|side| side.get()).collect();
         expect("chunks of shape", format!("{chunk:?}"), format!("{found:?}"))?;
-        for row in 0..shape[0].div_ceil(chunk[0]) {
-            for column in 0..shape[1].div_ceil(chunk[1]) {
-                let key = array.chunk_key(&[&[row, column], &origin[2..]].concat());
-                if !self.path.join(key.as_str()).is_file() {
-                    return Err(fault(self.path, layout, ArrayFault::MissingChunk { chunk: key.to_string() }));
-                }
+
+        let [width, height] = self.size;
+        let places = || (0..height).step_by(format::CHUNK).flat_map(|top| (0..width).step_by(format::CHUNK).map(move |left| [top, left]));
+        let indices = |place: [usize; 2]| [&place.map(|texel| (texel / format::CHUNK) as u64)[..], &origin[2..]].concat();
+        for place in places() {
+            let key = array.chunk_key(&indices(place));
+            if !self.path.join(key.as_str()).is_file() {
+                return Err(fault(self.path, layout, ArrayFault::MissingChunk { chunk: key.to_string() }));
             }
         }
-        array.retrieve_array_subset(&array.subset_all()).map_err(|error| failed(&error))
+        let components = layout.components.map_or(1, |(_, names)| names.len());
+        let mut values = vec![N::FILL; width * height * components];
+        let (stride, chunk_stride) = (width * components, width.min(format::CHUNK) * components);
+        for place in places() {
+            // Whole, since only then gzip's checksum is looked at.
+            let texels: Vec<N> = array.retrieve_chunk(&indices(place)).map_err(|error| failed(&error))?;
+            let [top, left] = place;
+            let run = chunk_stride.min(stride - left * components);
+            for (row, texels) in (top..height).zip(texels.chunks_exact(chunk_stride)) {
+                values[row * stride + left * components..][..run].copy_from_slice(&texels[..run]);
+            }
+        }
+        Ok(values)
     }
 }
 
