@@ -185,7 +185,8 @@ fn missing_and_damaged_arrays_are_named() {
         "fit_iterations",
         "fit_status",
     ];
-    let (_folder, path) = saved(&sample([9, 300], 1));
+    let material = sample([9, 300], 1);
+    let (_folder, path) = saved(&material);
     for name in names {
         let array = path.join(name);
         let chunk = walk(&array.join("c")).pop().expect("has chunks");
@@ -194,7 +195,11 @@ fn missing_and_damaged_arrays_are_named() {
         flipped[whole.len() / 2] ^= 0x10;
         for damaged in [&whole[..whole.len() / 2], &whole[..whole.len() - 1], &[], &flipped] {
             std::fs::write(&chunk, damaged).expect("is writable");
-            assert_says(material::load(&path), &[&format!("array \"{name}\""), "cloth.zarr", "fit the material again"]);
+            match material::load(&path) {
+                // gzip has bits that mean nothing.
+                Ok(loaded) if damaged.len() == whole.len() => assert_eq!(bits(&loaded), bits(&material)),
+                result => assert_says(result, &[&format!("array \"{name}\""), "cloth.zarr", "fit the material again"]),
+            }
         }
         std::fs::remove_file(&chunk).expect("was there");
         assert_says(material::load(&path), &[&format!("array \"{name}\""), "chunk", "is missing"]);

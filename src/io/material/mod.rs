@@ -265,19 +265,7 @@ impl Reader<'_> {
                 return Err(fault(self.path, layout, ArrayFault::MissingChunk { chunk: key.to_string() }));
             }
         }
-        let components = layout.components.map_or(1, |(_, names)| names.len());
-        let mut values = vec![N::FILL; width * height * components];
-        let (stride, chunk_stride) = (width * components, width.min(format::CHUNK) * components);
-        for place in places() {
-            // Whole, since only then gzip's checksum is looked at.
-            let texels: Vec<N> = array.retrieve_chunk(&indices(place)).map_err(|error| failed(&error))?;
-            let [top, left] = place;
-            let run = chunk_stride.min(stride - left * components);
-            for (row, texels) in (top..height).zip(texels.chunks_exact(chunk_stride)) {
-                values[row * stride + left * components..][..run].copy_from_slice(&texels[..run]);
-            }
-        }
-        Ok(values)
+        array.retrieve_array_subset(&array.subset_all()).map_err(|error| failed(&error))
     }
 }
 
