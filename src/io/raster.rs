@@ -63,7 +63,9 @@ fn format(file: &str, bytes: &[u8]) -> Result<ImageFormat, IoError> {
     }
 }
 
-fn jpeg<'a>(file: &str, bytes: &'a [u8]) -> Result<(JpegDecoder<ZCursor<&'a [u8]>>, [usize; 2]), IoError> {
+type Jpeg<'a> = JpegDecoder<ZCursor<&'a [u8]>>;
+
+fn jpeg<'a>(file: &str, bytes: &'a [u8]) -> Result<(Jpeg<'a>, [usize; 2]), IoError> {
     let options = DecoderOptions::default().set_strict_mode(true).jpeg_set_out_colorspace(ColorSpace::RGBA);
     // Sizes are judged by the callers, for all formats alike.
     let options = options.set_max_width(usize::MAX).set_max_height(usize::MAX);

@@ -28,11 +28,12 @@ impl Staging {
         self.folder.path().join("new")
     }
 
-    /// Renames the result to the target's name. A file there is replaced at once. A folder there is first moved into the
-    /// staging folder, and back again if the result cannot take its place.
+    /// Renames the result to the target's name. A file replaces a file at once. Before a folder replaces a folder, the old
+    /// one is moved into the staging folder, and back again if the new one cannot take its place. A file never replaces a
+    /// folder.
     pub(super) fn commit(mut self) -> Result<(), IoError> {
         let old = self.folder.path().join("old");
-        let replaced = if self.target.is_dir() { std::fs::rename(&self.target, &old) } else { Ok(()) };
+        let replaced = if self.target.is_dir() && self.path().is_dir() { std::fs::rename(&self.target, &old) } else { Ok(()) };
         let result = replaced.and_then(|()| std::fs::rename(self.path(), &self.target));
         if result.is_err() && old.exists() && std::fs::rename(&old, &self.target).is_err() {
             // The old folder must not be removed with the staging folder.

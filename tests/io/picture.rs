@@ -15,7 +15,8 @@ crate::suite! { plain:
     nan_has_no_code,
     an_exr_keeps_every_bit,
     other_extensions_are_refused,
-    a_picture_replaces_another_and_leaves_nothing_else;
+    a_picture_replaces_another_and_leaves_nothing_else,
+    a_folder_is_not_replaced;
 }
 
 fn every_code_survives_a_png() {
@@ -83,4 +84,13 @@ fn a_picture_replaces_another_and_leaves_nothing_else() {
         assert_eq!(picture::read(&path).expect("reads")[(1, 1)], [value, value, value, 1.0]);
     }
     assert_eq!(std::fs::read_dir(folder.path()).expect("is readable").count(), 1);
+}
+
+fn a_folder_is_not_replaced() {
+    let folder = tempfile::tempdir().expect("is writable");
+    let path = folder.path().join("a.png");
+    std::fs::create_dir(&path).expect("is writable");
+    std::fs::write(path.join("notes.txt"), "mine").expect("is writable");
+    assert_says(picture::write(&path, &Map::from_fn(1, 1, |_, _| [0.0; 4])), &["cannot write", "a.png"]);
+    assert!(path.join("notes.txt").is_file());
 }
