@@ -1,7 +1,10 @@
 //! Physics and settings as plain types and f64 functions. No wgpu.
 
 mod boundary;
+pub mod color;
+mod lafortune;
 mod settings;
 
 pub use boundary::Boundary;
+pub use lafortune::lafortune;
 pub use settings::{FitSettings, SpecularScale};

@@ -1,7 +1,10 @@
 //! What must hold without a twin.
 
+mod lafortune_fit;
 mod normals;
+mod percentile;
+mod specular_scale;
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [normals::tests()].into_iter().flatten().collect()
+    [lafortune_fit::tests(), normals::tests(), percentile::tests(), specular_scale::tests()].into_iter().flatten().collect()
 }

@@ -1,6 +1,7 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
 pub mod random;
+pub mod tile;
 
 use std::{
     path::{Path, PathBuf},
