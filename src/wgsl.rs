@@ -19,6 +19,22 @@ sources! {
     THREAD = "kernels/common" "thread";
     /// Neighbours of a texel under a boundary rule.
     BOUNDARY = "kernels/common" "boundary";
+    /// Eight samples as halves.
+    OCTET = "kernels/common" "octet";
+    /// Real part of a corner of a complex field.
+    CROP_REAL = "kernels" "crop_real";
+    /// One pass of a Fourier transform.
+    FFT = "kernels" "fft";
+    /// Spectrum of a height field from that of its slopes.
+    FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
+    /// Slopes of a surface that goes on mirrored.
+    MIRROR_SLOPES = "kernels" "mirror_slopes";
     /// Normals of a height field.
     NORMALS = "kernels" "normals";
+    /// Normals and albedo from radiance under known lights.
+    PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
+    /// Sums of rows of slopes.
+    SLOPE_SUM = "kernels" "slope_sum";
+    /// Slopes of normals.
+    SLOPES = "kernels" "slopes";
 }

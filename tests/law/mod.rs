@@ -1,7 +1,10 @@
 //! What must hold without a twin.
 
+mod fft;
+mod frankot_chellappa;
 mod normals;
+mod photometric_stereo;
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [normals::tests()].into_iter().flatten().collect()
+    [fft::tests(), frankot_chellappa::tests(), normals::tests(), photometric_stereo::tests()].into_iter().flatten().collect()
 }
