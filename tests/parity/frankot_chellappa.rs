@@ -33,8 +33,9 @@ fn agrees_with_its_twin(gpu: &Gpu) {
             let expected = reference::frankot_chellappa(&normals.map(|n| n.map(f64::from)), &settings);
             let largest = expected.values().iter().fold(1.0_f64, |largest, z| largest.max(z.abs()));
             let worst = worst_difference(found.iter().map(|&z| f64::from(z)), expected.values().iter().copied());
-            // Two transforms of the mirrored size; the division gives a frequency's error and value the same factor.
-            let bound = 2.0 * (fft_bound(2 * width) + fft_bound(2 * height));
+            // Transforms of the mirrored size, whose errors add in squares; the division gives a frequency's error and value
+            // the same factor.
+            let bound = fft_bound(2 * width) + fft_bound(2 * height);
             hold("frankot_chellappa: worst error over the largest height", worst / largest, bound);
         }
     }
