@@ -19,6 +19,12 @@ sources! {
     BOUNDARY = "kernels/common" "boundary";
     /// Reflectance from radiance.
     BRDF_VALUES = "kernels" "brdf_values";
+    /// Real part of a corner of a complex field.
+    CROP_REAL = "kernels" "crop_real";
+    /// One pass of a Fourier transform.
+    FFT = "kernels" "fft";
+    /// Spectrum of a height field from that of its slopes.
+    FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
     /// The Lafortune lobe.
     LAFORTUNE = "kernels/common" "lafortune";
     /// One step of the Lafortune fit.
@@ -29,12 +35,20 @@ sources! {
     LAFORTUNE_START = "kernels" "lafortune_start";
     /// State of the Lafortune fit between passes.
     LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// Slopes of a surface that goes on mirrored.
+    MIRROR_SLOPES = "kernels" "mirror_slopes";
     /// Normals of a height field.
     NORMALS = "kernels" "normals";
     /// Eight samples as halves.
     OCTET = "kernels/common" "octet";
     /// Exact quantile per texel and channel.
     PERCENTILE = "kernels" "percentile";
+    /// Normals and albedo from radiance under known lights.
+    PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
+    /// Slopes of normals.
+    SLOPES = "kernels" "slopes";
+    /// Sums of rows of slopes.
+    SLOPE_SUM = "kernels" "slope_sum";
     /// The mean specular residual.
     SPECULAR_RESIDUAL = "kernels" "specular_residual";
     /// Specular reflectance per channel.

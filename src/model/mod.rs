@@ -2,9 +2,11 @@
 
 mod boundary;
 pub mod color;
+mod fourier;
 mod lafortune;
 mod settings;
 
 pub use boundary::Boundary;
+pub use fourier::Fourier;
 pub use lafortune::lafortune;
 pub use settings::{FitSettings, SpecularScale};

@@ -20,6 +20,9 @@ pub struct FitSettings {
     pub boundary: Boundary,
     /// Photometric stereo's slopes are held to at most this (tan of the angle to the plane's normal).
     pub max_slope: f64,
+    /// Under [`Boundary::Mirror`] the mean slope is taken out before integration: it is more often a fault of calibration
+    /// than relief. Under [`Boundary::Periodic`] it is always gone, since a plane that repeats has none.
+    pub detilt: bool,
     /// Lights with cos θ_i below this carry no weight in the reflectance: division by the cosine would blow up their noise.
     pub min_cos_light: f64,
     /// ρ_d is this quantile of the reflectance (thesis: the 10th percentile).
@@ -45,6 +48,7 @@ impl Default for FitSettings {
             boundary: Boundary::Periodic,
             // 84°: beyond it a photograph from above says nothing of a slope.
             max_slope: 10.0,
+            detilt: true,
             // 80°: keeps all of the usual grids (θ ≤ 75°) and leaves out what cannot be divided by.
             min_cos_light: 0.17,
             diffuse_quantile: 0.1,

@@ -1,18 +1,26 @@
 //! Host side of the compute stages, one file each.
 
 mod brdf_values;
+mod error;
+mod fft;
+mod frankot_chellappa;
 mod lafortune_fit;
 mod normals;
 mod percentile;
+mod photometric_stereo;
 mod specular_residual;
 mod specular_scale;
 mod srgb_decode;
 mod tile;
 
 pub use brdf_values::BrdfValues;
+pub use error::StageError;
+pub use fft::Fft;
+pub use frankot_chellappa::FrankotChellappa;
 pub use lafortune_fit::{FittedLobes, LafortuneFit, STARTS};
 pub use normals::Normals;
 pub use percentile::Percentile;
+pub use photometric_stereo::PhotometricStereo;
 pub use specular_residual::SpecularResidual;
 pub use specular_scale::SpecularScale;
 pub use srgb_decode::SrgbDecode;

@@ -1,10 +1,11 @@
 //! What must hold without a twin.
 
-mod lafortune_fit;
-mod normals;
-mod percentile;
-mod specular_scale;
-
-pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [lafortune_fit::tests(), normals::tests(), percentile::tests(), specular_scale::tests()].into_iter().flatten().collect()
+crate::suites! {
+    fft,
+    frankot_chellappa,
+    lafortune_fit,
+    normals,
+    percentile,
+    photometric_stereo,
+    specular_scale,
 }
