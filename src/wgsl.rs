@@ -19,6 +19,18 @@ sources! {
     THREAD = "kernels/common" "thread";
     /// Neighbours of a texel under a boundary rule.
     BOUNDARY = "kernels/common" "boundary";
+    /// Kubelka-Munk films.
+    FILM = "kernels/common" "film";
+    /// Reflection at a paint's surface.
+    MICROFACET = "kernels/common" "microfacet";
+    /// Value noise.
+    NOISE = "kernels/common" "noise";
+    /// One layer of paint over diffuse reflectance.
+    KUBELKA_MUNK = "kernels" "kubelka_munk";
     /// Normals of a height field.
     NORMALS = "kernels" "normals";
+    /// One layer of paint over a height field.
+    PAINT_RELIEF = "kernels" "paint_relief";
+    /// Drawn thickness of a procedural pattern.
+    PATTERN = "kernels" "pattern";
 }

@@ -1,7 +1,11 @@
 //! Each kernel against its twin.
 
+mod kubelka_munk;
+mod microfacet;
 mod normals;
+mod paint_relief;
+mod pattern;
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [normals::tests()].into_iter().flatten().collect()
+    [kubelka_munk::tests(), microfacet::tests(), normals::tests(), paint_relief::tests(), pattern::tests()].into_iter().flatten().collect()
 }
