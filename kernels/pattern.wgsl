@@ -72,8 +72,8 @@ fn splash(place: vec2<f32>) -> f32 {
     var distance = 1.0;
     for (var index = 0u; index < params.shapes; index++) {
         let other = outline(place, shapes[index]);
-        let shared = max(FLOW - abs(distance - other), 0.0);
-        distance = min(distance, other) - shared * shared / (4.0 * FLOW);
+        let bridge = max(FLOW - abs(distance - other), 0.0);
+        distance = min(distance, other) - bridge * bridge / (4.0 * FLOW);
     }
     let fray = 0.010 * (tiled_noise(place, 14u, params.seed) - 0.5) + 0.004 * (tiled_noise(place, 45u, params.seed + 1u) - 0.5);
     let depth = -(distance + fray);

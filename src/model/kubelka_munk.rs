@@ -31,6 +31,9 @@ impl Film {
     }
 
     /// This film on top of `below`: R = R₁ + T₁²R₂/(1 − R₁R₂), T = T₁T₂/(1 − R₁R₂) (thesis eq. 3.8).
+    ///
+    /// R is seen from above, and from below a stack of different films reflects otherwise: `below` may be a stack, this film
+    /// may not. So films are stacked from the bottom up, and a ground goes in first.
     #[must_use]
     pub fn over(self, below: Self) -> Self {
         let between = 1.0 - self.reflectance * below.reflectance.min(WHITEST);

@@ -62,7 +62,8 @@ fn a_white_furnace_gains_nothing() {
             // The quadrature's own error.
             hold("microfacet: furnace, albedo - 1", albedo - 1.0, 1e-3);
             if degrees <= 30.0 && roughness <= 0.1 {
-                hold("microfacet: furnace, 1 - albedo of a smooth surface", 1.0 - albedo, 0.01);
+                // Facets of slope 0.1 hide each other to about their slope squared.
+                hold("microfacet: furnace, 1 - albedo of a smooth surface", 1.0 - albedo, 0.02);
             }
         }
     }

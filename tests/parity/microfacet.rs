@@ -43,9 +43,9 @@ fn the_lobe_agrees(gpu: &Gpu) {
         worst = worst.max((lobe - expected).abs() / (1.0 + expected));
         worst_schlick = worst_schlick.max((schlick - expected_schlick).abs());
     }
-    // Cosines are good to 1e-7, and at the narrowest lobe (0.05) of grazing directions the value changes by up to 1/0.05 a radian,
-    // times its own size.
-    hold("microfacet: ggx_specular, relative to 1 + value", worst, 2e-5);
+    // Cosines are good to 1e-7. A lobe of 0.05 changes by forty times its size a radian, and the half vector of nearly opposite
+    // directions, being short, is worse than they are by another ten.
+    hold("microfacet: ggx_specular, relative to 1 + value", worst, 5e-5);
     // The fifth power of 1 - cosine: five roundings.
     hold("microfacet: schlick", worst_schlick, 6e-7);
 }
