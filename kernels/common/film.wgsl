@@ -5,7 +5,7 @@
 struct Film {
     // R over black
     reflectance: vec3<f32>,
-    // 1 - R, from its own sum of positive terms: for a white opaque film 1 minus the rounded R would be noise
+    // 1 - R, from its own sum of positive terms: for a white opaque film R rounds to 1
     complement: vec3<f32>,
     // T
     transmittance: vec3<f32>,
