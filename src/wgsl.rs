@@ -23,8 +23,12 @@ sources! {
     CROP_REAL = "kernels" "crop_real";
     /// One pass of a Fourier transform.
     FFT = "kernels" "fft";
+    /// Kubelka-Munk films.
+    FILM = "kernels/common" "film";
     /// Spectrum of a height field from that of its slopes.
     FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
+    /// One layer of paint over diffuse reflectance.
+    KUBELKA_MUNK = "kernels" "kubelka_munk";
     /// The Lafortune lobe.
     LAFORTUNE = "kernels/common" "lafortune";
     /// One step of the Lafortune fit.
@@ -35,12 +39,20 @@ sources! {
     LAFORTUNE_START = "kernels" "lafortune_start";
     /// State of the Lafortune fit between passes.
     LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// Reflection at a paint's surface.
+    MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.
     MIRROR_SLOPES = "kernels" "mirror_slopes";
+    /// Value noise.
+    NOISE = "kernels/common" "noise";
     /// Normals of a height field.
     NORMALS = "kernels" "normals";
     /// Eight samples as halves.
     OCTET = "kernels/common" "octet";
+    /// One layer of paint over a height field.
+    PAINT_RELIEF = "kernels" "paint_relief";
+    /// Drawn thickness of a procedural pattern.
+    PATTERN = "kernels" "pattern";
     /// Exact quantile per texel and channel.
     PERCENTILE = "kernels" "percentile";
     /// Normals and albedo from radiance under known lights.

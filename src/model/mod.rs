@@ -3,10 +3,19 @@
 mod boundary;
 pub mod color;
 mod fourier;
+pub mod kubelka_munk;
 mod lafortune;
+pub mod microfacet;
+mod paint;
+pub mod pattern;
+pub mod pigments;
 mod settings;
 
 pub use boundary::Boundary;
 pub use fourier::Fourier;
+pub use kubelka_munk::Film;
 pub use lafortune::lafortune;
+pub use paint::{Layer, Paint, PaintError};
+pub use pattern::{Capsule, Pattern, PatternError};
+pub use pigments::Pigment;
 pub use settings::{FitSettings, SpecularScale};

@@ -3,9 +3,14 @@
 crate::suites! {
     fft,
     frankot_chellappa,
+    kubelka_munk,
     lafortune_fit,
+    microfacet,
     normals,
+    paint_relief,
+    pattern,
     percentile,
     photometric_stereo,
+    pigments,
     specular_scale,
 }
