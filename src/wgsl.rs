@@ -19,6 +19,20 @@ sources! {
     THREAD = "kernels/common" "thread";
     /// Neighbours of a texel under a boundary rule.
     BOUNDARY = "kernels/common" "boundary";
+    /// The Lafortune lobe.
+    LAFORTUNE = "kernels/common" "lafortune";
+    /// Reflection of a rough dielectric coat.
+    MICROFACET = "kernels/common" "microfacet";
+    /// Rays against a height field.
+    RELIEF = "kernels/common" "relief";
+    /// Radiance that leaves a place of the base plane.
+    SHADE = "kernels/common" "shade";
+    /// The maps and directions that shading reads.
+    SURFACE = "kernels/common" "surface";
     /// Normals of a height field.
     NORMALS = "kernels" "normals";
+    /// What the source's camera would have recorded.
+    RECONSTRUCT = "kernels" "reconstruct";
+    /// The material as a plane.
+    PLANE = "shaders" "plane";
 }

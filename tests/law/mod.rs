@@ -1,7 +1,9 @@
 //! What must hold without a twin.
 
 mod normals;
+mod plane;
+mod reconstruct;
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [normals::tests()].into_iter().flatten().collect()
+    [normals::tests(), plane::tests(), reconstruct::tests()].into_iter().flatten().collect()
 }

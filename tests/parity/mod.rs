@@ -1,7 +1,9 @@
 //! Each kernel against its twin.
 
 mod normals;
+pub mod plane;
+mod reconstruct;
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [normals::tests()].into_iter().flatten().collect()
+    [normals::tests(), plane::tests(), reconstruct::tests()].into_iter().flatten().collect()
 }

@@ -1,6 +1,7 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
 pub mod random;
+pub mod surface;
 
 use std::{
     path::{Path, PathBuf},
