@@ -12,13 +12,14 @@ fn unpainted_radiance(texel: u32) -> vec3<f32> {
 
 // Kubelka-Munk diffuse below a coat: of the light 1 - F enters and leaves at the angles of light and view, divided by the mean
 // of 1 - F over the hemisphere, so that what is not reflected is what the diffuse part gets (Kelemen, Szirmay-Kalos 2001).
-// Schlick's F has the cosine-weighted mean f0 + (1 - f0)/21.
+// Schlick's F has the cosine-weighted mean f0 + (1 - f0)/21. A normal that turns from the view further than the base plane does
+// is taken at the plane's angle: normals on a rim average in the side that is hidden, and would draw it dark.
 fn painted_radiance(texel: u32) -> vec3<f32> {
     let view = scene.view.xyz;
     let light = scene.light.xyz;
     let normal = normals[texel].xyz;
     let cos_light = max(dot(normal, light), 0.0);
-    let through = (1.0 - schlick(scene.f0, cos_light)) * (1.0 - schlick(scene.f0, dot(normal, view)));
+    let through = (1.0 - schlick(scene.f0, cos_light)) * (1.0 - schlick(scene.f0, max(dot(normal, view), view.z)));
     let entering = through / ((1.0 - scene.f0) * (20.0 / 21.0));
     return entering * painted[texel].rgb * cos_light + ggx_specular(normal, view, light, scene.roughness, scene.f0);
 }

@@ -67,8 +67,8 @@ impl Surface {
         std::array::from_fn(|channel| (self.diffuse[texel][channel] + self.specular[texel][channel] * lobe) * light.z)
     }
 
-    /// Kubelka-Munk diffuse (1 − F(θ_i))(1 − F(θ_o))ρ/(1 − F̄) with Schlick's F (Kelemen, Szirmay-Kalos 2001), and Walter et al.
-    /// 2007 on top: eq. 20 (f_r), 33 (D), 34 (G).
+    /// Kubelka-Munk diffuse (1 − F(θ_i))(1 − F(θ_o))ρ/(1 − F̄) with Schlick's F (Kelemen, Szirmay-Kalos 2001), normals turned from
+    /// the view further than the base plane counted as that plane, and Walter et al. 2007 on top: eq. 20 (f_r), 33 (D), 34 (G).
     fn painted(&self, texel: (usize, usize), view: DVec3, light: DVec3) -> [f64; 3] {
         let normal = DVec3::from_array(self.normals[texel]);
         let facet = (view + light).normalize();
@@ -87,7 +87,7 @@ impl Surface {
         };
         // Mean over the hemisphere, weighted by the cosine: ∫ 2c(1 − c)⁵ dc = 1/21.
         let fresnel_mean = f0 + (1.0 - f0) / 21.0;
-        let entering = (1.0 - fresnel(theta_light.cos())) * (1.0 - fresnel(theta_view.cos())) / (1.0 - fresnel_mean);
+        let entering = (1.0 - fresnel(theta_light.cos())) * (1.0 - fresnel(theta_view.cos().max(view.z))) / (1.0 - fresnel_mean);
         std::array::from_fn(|channel| entering * self.painted[texel][channel] * theta_light.cos().max(0.0) + specular)
     }
 }

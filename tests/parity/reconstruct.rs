@@ -29,8 +29,11 @@ fn agrees_with_its_twin(gpu: &Gpu) {
                 let found = reconstruct(gpu, &uploaded, view, light, Relief::default());
                 let expected = with_alpha(&reference::reconstruct(&surface, view, light, Relief::default()));
                 let [flip, differing] = compare(&found, &expected, 5e-3);
-                hold("reconstruct: mean FLIP", flip, 0.02);
-                hold("reconstruct: share of pixels off by more than 0.005", differing, 0.02);
+                // The kernel's search and shadows step half a texel where the twin's crossings are exact: pixels on a silhouette or
+                // on the edge of a shadow may fall on its other side, and the largest cover of a penumbra is sampled. Those are
+                // lines, a few pixels in a hundred at most, and each off by what FLIP calls a full error or less.
+                hold("reconstruct: mean FLIP", flip, 0.01);
+                hold("reconstruct: share of pixels off by more than 0.005", differing, 0.01);
             }
         }
     }
@@ -41,7 +44,9 @@ fn agrees_where_nothing_is_discontinuous(gpu: &Gpu) {
     let surface = bumpy(50, 100, Boundary::Mirror, 5);
     let uploaded = upload(gpu, &surface);
     let light = Direction::from_degrees(50.0, 200.0);
-    for (view, relief, bound) in [((60.0, 70.0), OFF, 4e-6), ((15.0, 70.0), Relief { displace: true, ..OFF }, 1e-4)] {
+    // Flat: one power with an exponent up to 20 (2e-6 relative) of values below 1.5. Displaced: places off by the secant's error and
+    // by rounding, 1e-5 texel, between texels that differ by up to 1.
+    for (view, relief, bound) in [((60.0, 70.0), OFF, 4e-6), ((15.0, 70.0), Relief { displace: true, ..OFF }, 2e-5)] {
         let view = Direction::from_degrees(view.0, view.1);
         let found = reconstruct(gpu, &uploaded, view, light, relief);
         let expected = reference::reconstruct(&surface, view, light, relief);
