@@ -4,5 +4,6 @@ pub mod data;
 pub mod gpu;
 pub mod model;
 pub mod reference;
+pub mod render;
 pub mod stage;
 pub mod wgsl;

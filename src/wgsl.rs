@@ -57,6 +57,14 @@ sources! {
     PERCENTILE = "kernels" "percentile";
     /// Normals and albedo from radiance under known lights.
     PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
+    /// The material as a plane.
+    PLANE = "shaders" "plane";
+    /// What the source's camera would have recorded.
+    RECONSTRUCT = "kernels" "reconstruct";
+    /// Rays against a height field.
+    RELIEF = "kernels/common" "relief";
+    /// Radiance that leaves a place of the base plane.
+    SHADE = "kernels/common" "shade";
     /// Slopes of normals.
     SLOPES = "kernels" "slopes";
     /// Sums of rows of slopes.
@@ -67,6 +75,8 @@ sources! {
     SPECULAR_SCALE = "kernels" "specular_scale";
     /// Tile of sRGB images to linear halves.
     SRGB_DECODE = "kernels" "srgb_decode";
+    /// The maps and directions that shading reads.
+    SURFACE = "kernels/common" "surface";
     /// Index of a thread in a folded grid.
     THREAD = "kernels/common" "thread";
 }

@@ -3,7 +3,7 @@
 
 use half::f16;
 
-use super::tile::{Tile, single, word};
+use super::{scalar::{count, single}, tile::{Tile}};
 use crate::{
     data::{OCTET, Samples},
     gpu::{Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -46,7 +46,7 @@ impl BrdfValues {
         let mut inverse: Vec<f32> = samples.light_cosines().map(|cosine| single(1.0 / cosine)).collect();
         inverse.resize(octets * OCTET, 0.0);
         let inverse = gpu.upload::<[f32; 4]>("inverse cosines", bytemuck::cast_slice(&inverse))?;
-        let params = gpu.uniform("brdf_values params", &Params { texels: word(texels), octets: word(octets) })?;
+        let params = gpu.uniform("brdf_values params", &Params { texels: count(texels), octets: count(octets) })?;
         let values = gpu.fresh("reflectance", 3 * octets * texels)?;
         recorder.dispatch(
             &self.kernel,

@@ -3,7 +3,7 @@
 //!
 //! Layers are recorded from the bottom up, the result of one being the ground of the next.
 
-use super::{count, single};
+use super::scalar::{count, single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct,

@@ -12,7 +12,7 @@
 
 use half::f16;
 
-use super::tile::{single, upload_products, word};
+use super::{scalar::{count, single}, tile::{upload_products}};
 use crate::{
     data::{OCTET, Samples},
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -135,7 +135,7 @@ impl LafortuneFit {
         let champion = [0.0; 4];
         descents.record(recorder, champion, false, 1)?;
 
-        let params = gpu.uniform("lafortune_result params", &ResultParams { texels: word(texels), samples: word(samples.len()) })?;
+        let params = gpu.uniform("lafortune_result params", &ResultParams { texels: count(texels), samples: count(samples.len()) })?;
         let fitted = FittedLobes {
             lobes: gpu.fresh("lobes", texels)?,
             objectives: gpu.fresh("objectives", texels)?,
@@ -168,14 +168,14 @@ impl Descents<'_> {
     /// One descent from `start` over every `stride`th octet.
     fn record(&self, recorder: &mut Recorder<'_>, start: [f32; 4], first: bool, stride: usize) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
-        let params = StartParams { start, texels: word(self.texels), first: u32::from(first), ..StartParams::default() };
+        let params = StartParams { start, texels: count(self.texels), first: u32::from(first), ..StartParams::default() };
         let params = gpu.uniform("lafortune_start params", &params)?;
         recorder.dispatch(&self.stage.start, &[bind("params", &params), bind("states", &self.states)], Grid::threads(self.texels))?;
 
         let params = StepParams {
-            texels: word(self.texels),
-            octets: word(self.octets),
-            stride: word(stride),
+            texels: count(self.texels),
+            octets: count(self.octets),
+            stride: count(stride),
             tolerance: single(self.settings.tolerance),
             min_exponent: single(self.settings.exponents[0]),
             max_exponent: single(self.settings.exponents[1]),

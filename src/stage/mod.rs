@@ -11,9 +11,12 @@ mod paint_relief;
 mod pattern;
 mod percentile;
 mod photometric_stereo;
+mod reconstruct;
+mod scalar;
 mod specular_residual;
 mod specular_scale;
 mod srgb_decode;
+mod surface;
 mod tile;
 
 pub use brdf_values::BrdfValues;
@@ -27,7 +30,11 @@ pub use paint_relief::PaintRelief;
 pub use pattern::Pattern;
 pub use percentile::Percentile;
 pub use photometric_stereo::PhotometricStereo;
+pub use reconstruct::Reconstruct;
 pub use specular_residual::SpecularResidual;
 pub use specular_scale::SpecularScale;
 pub use srgb_decode::SrgbDecode;
+pub use surface::{Scene, Surface};
 pub use tile::Tile;
+
+pub(crate) use scalar::{count, single};

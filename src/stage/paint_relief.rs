@@ -1,7 +1,7 @@
 //! One layer of paint raises the surface by its thickness. Kernel `paint_relief`, twin
 //! [`reference::paint_relief`](crate::reference::paint_relief).
 
-use super::{count, single};
+use super::scalar::{count, single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct,

@@ -1,7 +1,7 @@
 //! A procedural pattern: the thickness drawn at each texel. Kernel `pattern`, twin
 //! [`reference::pattern`](crate::reference::pattern).
 
-use super::{count, single};
+use super::scalar::{count, single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct, model, wgsl,

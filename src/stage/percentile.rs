@@ -7,7 +7,7 @@
 
 use half::f16;
 
-use super::tile::{Tile, single, word};
+use super::{scalar::{count, single}, tile::{Tile}};
 use crate::{
     data::OCTET,
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -50,9 +50,9 @@ impl Percentile {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the number of samples")]
         let rank = position.floor() as u32;
         let params = Params {
-            texels: word(values.texels),
-            octets: word(values.octets()),
-            samples: word(values.samples),
+            texels: count(values.texels),
+            octets: count(values.octets()),
+            samples: count(values.samples),
             rank,
             fraction: single(position - position.floor()),
             ..Params::default()

@@ -3,7 +3,7 @@
 
 use half::f16;
 
-use super::tile::{Tile, word};
+use super::{scalar::{count}, tile::{Tile}};
 use crate::{
     data::OCTET,
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -42,7 +42,7 @@ impl SpecularResidual {
     pub fn record(&self, recorder: &mut Recorder<'_>, reflectance: &Tile, diffuse: &Buffer<[f32; 4]>) -> Result<Buffer<[f16; OCTET]>, GpuError> {
         let gpu = recorder.gpu();
         let (texels, octets) = (reflectance.texels, reflectance.octets());
-        let params = Params { texels: word(texels), octets: word(octets), samples: word(reflectance.samples), _pad: 0 };
+        let params = Params { texels: count(texels), octets: count(octets), samples: count(reflectance.samples), _pad: 0 };
         let params = gpu.uniform("specular_residual params", &params)?;
         let residual = gpu.fresh("specular residual", octets * texels)?;
         recorder.dispatch(

@@ -6,7 +6,7 @@
 
 use half::f16;
 
-use super::tile::{Tile, single, upload_products, word};
+use super::{scalar::{count, single}, tile::{Tile, upload_products}};
 use crate::{
     data::{OCTET, Samples},
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -53,8 +53,8 @@ impl SpecularScale {
     ) -> Result<Buffer<[f32; 4]>, GpuError> {
         let gpu = recorder.gpu();
         let params = Params {
-            texels: word(reflectance.texels),
-            octets: word(reflectance.octets()),
+            texels: count(reflectance.texels),
+            octets: count(reflectance.octets()),
             rule: match settings.specular_scale {
                 Rule::LeastSquares => 0,
                 Rule::MeanRatio => 1,

@@ -2,6 +2,7 @@
 
 use half::f16;
 
+use super::scalar::single;
 use crate::{
     data::{OCTET, Samples},
     gpu::{Buffer, Gpu, GpuError},
@@ -34,18 +35,4 @@ pub(super) fn upload_products(gpu: &Gpu, samples: &Samples) -> Result<Buffer<[f3
     let mut products: Vec<[f32; 4]> = samples.products().map(|[x, y, z]| [single(x), single(y), single(z), 0.0]).collect();
     products.resize(samples.octets() * OCTET, [0.0; 4]);
     gpu.upload("products of directions", &products)
-}
-
-/// Rounds to single precision.
-#[expect(clippy::cast_possible_truncation, reason = "the adapter computes in f32")]
-pub(super) fn single(value: f64) -> f32 {
-    value as f32
-}
-
-/// A count as a kernel takes it.
-///
-/// # Panics
-/// Past 2^32: no buffer that fits an adapter holds as many.
-pub(super) fn word(count: usize) -> u32 {
-    u32::try_from(count).expect("a count that fits a buffer fits 32 bits")
 }

@@ -12,5 +12,7 @@ crate::suites! {
     percentile,
     photometric_stereo,
     pigments,
+    plane,
+    reconstruct,
     specular_scale,
 }

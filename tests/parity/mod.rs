@@ -12,6 +12,8 @@ crate::suites! {
     pattern,
     percentile,
     photometric_stereo,
+    plane,
+    reconstruct,
     specular_residual,
     specular_scale,
     srgb_decode,

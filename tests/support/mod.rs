@@ -3,6 +3,7 @@
 pub mod octets;
 pub mod probe;
 pub mod random;
+pub mod surface;
 pub mod tile;
 
 use std::{
