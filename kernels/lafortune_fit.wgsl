@@ -188,9 +188,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let gram = gram_at(texel, state.candidate, state.amplitude);
     let first = state.objective < 0.0;
     if first {
-        // A is still 0, so r = -s.
-        state.energy = gram.rr;
-        if gram.rr == 0.0 {
+        // s = A m - r
+        state.energy = max(gram.rr + state.amplitude * (state.amplitude * gram.mm - 2.0 * gram.mr), 0.0);
+        if state.energy == 0.0 {
             state.status = NO_SPECULAR;
             state.objective = 0.0;
             states[texel] = state;
@@ -198,7 +198,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         if gram.mm == 0.0 {
             state.status = STALLED;
-            state.objective = gram.rr;
+            state.objective = state.energy;
             states[texel] = state;
             return;
         }

@@ -33,14 +33,17 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         state.iterations = last.iterations;
         state.champion = last.champion;
         state.champion_objective = last.champion_objective;
+        state.champion_amplitude = last.champion_amplitude;
         if last.objective >= 0.0 && (last.champion_objective < 0.0 || last.objective < last.champion_objective) {
             state.champion = last.point;
             state.champion_objective = last.objective;
+            state.champion_amplitude = last.amplitude;
         }
     }
     state.candidate = params.start;
     if params.start.w == 0.0 {
         state.candidate = state.champion;
+        state.amplitude = state.champion_amplitude;
     }
     state.point = state.candidate;
     state.objective = -1.0;

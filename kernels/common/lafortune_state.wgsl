@@ -31,7 +31,8 @@ struct FitState {
     status: u32,
     // steps tried, over all starts
     iterations: u32,
-    _pad: u32,
+    // A at `champion`
+    champion_amplitude: f32,
 }
 
 const RUNNING: u32 = 0u;

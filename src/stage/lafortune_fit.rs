@@ -39,7 +39,7 @@ gpu_struct! {
         energy: f32,
         status: u32,
         iterations: u32,
-        _pad: u32,
+        champion_amplitude: f32,
     }
 }
 gpu_struct! {
