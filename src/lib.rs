@@ -3,6 +3,7 @@
 pub mod data;
 pub mod gpu;
 pub mod model;
+pub mod pipeline;
 pub mod reference;
 pub mod stage;
 pub mod wgsl;
