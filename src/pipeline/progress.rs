@@ -93,15 +93,16 @@ impl Progress {
     /// what it had when it was last left.
     #[must_use]
     pub fn report(&self) -> StageTable {
-        let stages = self.rows().iter().map(|row| StageTime {
+        let stage = |row: &Row| StageTime {
             name: row.name.to_owned(),
             wall_seconds: row.wall.as_secs_f64(),
             gpu_seconds: row.gpu.map(|gpu| gpu.as_secs_f64()),
             on_adapter: row.on_adapter,
             texels: row.texels,
             samples: row.samples,
-        });
-        StageTable { adapter: self.adapter.clone(), wall_seconds: self.start.elapsed().as_secs_f64(), stages: stages.collect() }
+        };
+        let stages = self.rows().iter().map(stage).collect();
+        StageTable { adapter: self.adapter.clone(), wall_seconds: self.start.elapsed().as_secs_f64(), stages }
     }
 
     /// The rows; a thread that panicked elsewhere leaves them valid, since each change to them is complete in itself.
