@@ -1,5 +1,6 @@
 //! overpaint paints measured materials: a BTF in, a painted material out, on any GPU that wgpu reaches.
 
+pub mod cli;
 pub mod data;
 pub mod gpu;
 pub mod model;
@@ -7,3 +8,5 @@ pub mod pipeline;
 pub mod reference;
 pub mod stage;
 pub mod wgsl;
+
+pub use pipeline::pending::io;

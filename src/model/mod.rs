@@ -5,3 +5,4 @@ mod settings;
 
 pub use boundary::Boundary;
 pub use settings::{FitSettings, SpecularScale};
+pub use super::pipeline::pending::paint::{Layer, Paint, PaintError, Pattern, linear_from_srgb, pigments};

@@ -1,0 +1,101 @@
+//! `overpaint render`.
+
+use std::path::PathBuf;
+
+use clap::{Args, CommandFactory, error::ErrorKind};
+
+use super::{Cli, CliError, arguments, output, session::SessionArguments};
+use crate::{
+    data::Direction,
+    io,
+    model::{Layer, Paint, Pattern, pigments},
+    pipeline::{Coat, Studio},
+};
+
+/// Show a material as a plane in space, bare or painted.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  overpaint render cloth.zarr -o cloth.png
+  overpaint render cloth.zarr --paint \"watercolour/cadmium yellow\" --thickness 0.3 -o painted.png
+  overpaint render cloth.zarr --paint \"oil/cobalt blue\" --thickness 4 --relief 2 --view 50,270 --light 60,120 --size 1024x768 -o painted.exr")]
+pub struct Render {
+    /// The material, as `fit` wrote it
+    material: PathBuf,
+    #[command(flatten)]
+    coat: CoatArguments,
+    /// Direction of the view
+    #[arg(long, value_name = "THETA,PHI", default_value = "40,270", value_parser = arguments::direction)]
+    view: Direction,
+    /// Direction of the light
+    #[arg(long, value_name = "THETA,PHI", default_value = "50,135", value_parser = arguments::direction)]
+    light: Direction,
+    /// Size of the image in pixels
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = arguments::size)]
+    size: [u32; 2],
+    /// The image to write: .png (sRGB) or .exr (linear, 32-bit float)
+    #[arg(short, long, value_name = "IMAGE", value_parser = arguments::image)]
+    output: PathBuf,
+}
+
+/// The coat of paint as typed.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Paint")]
+struct CoatArguments {
+    /// A paint of the library, with its set or without: "oil/viridian", "viridian"
+    #[arg(long, value_name = "NAME", requires = "thickness", value_parser = paint)]
+    paint: Option<Paint>,
+    /// Kubelka-Munk thickness where the pattern is full, in the unit of the paint's set
+    #[arg(long, value_name = "D", requires = "paint", value_parser = arguments::not_negative)]
+    thickness: Option<f64>,
+    /// Where the paint lies
+    #[arg(long, requires = "paint", default_value = "full", value_parser = pattern)]
+    pattern: Pattern,
+    /// Height of the paint where the pattern is full, in texel widths
+    #[arg(long, value_name = "H", requires = "paint", default_value_t = 0.0, value_parser = arguments::not_negative)]
+    relief: f64,
+    /// Refractive index of the binder
+    #[arg(long, value_name = "N", requires = "paint", default_value_t = 1.5, value_parser = arguments::refractive_index)]
+    refractive_index: f64,
+    /// Width of the paint's highlight (GGX alpha)
+    #[arg(long, value_name = "A", requires = "paint", default_value_t = 0.3, value_parser = arguments::roughness)]
+    roughness: f64,
+}
+
+impl CoatArguments {
+    /// The coat, if there is one.
+    fn coat(self) -> Result<Option<Coat>, CliError> {
+        let (Some(paint), Some(thickness)) = (self.paint, self.thickness) else {
+            return Ok(None);
+        };
+        let (relief, refractive_index, roughness) = (self.relief, self.refractive_index, self.roughness);
+        let layer = Layer { paint, thickness, relief, refractive_index, roughness };
+        let layer = layer.checked().map_err(|error| Cli::command().error(ErrorKind::ValueValidation, error))?;
+        Ok(Some(Coat { layer, pattern: self.pattern }))
+    }
+}
+
+fn paint(name: &str) -> Result<Paint, String> {
+    pigments::find(name).map(Paint::from).map_err(|error| error.to_string())
+}
+
+fn pattern(name: &str) -> Result<Pattern, String> {
+    match name {
+        "full" => Ok(Pattern::Full),
+        _ => Err("expected full".to_owned()),
+    }
+}
+
+impl Render {
+    pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
+        let coat = self.coat.coat()?;
+        output::check_file(&self.output)?;
+        let material = io::material::load(&self.material)?;
+        let session = session.open()?;
+        let studio = Studio::new(&session.gpu)?;
+        let picture = studio.render(&material, coat.as_ref(), self.view, self.light, self.size, &session.progress)?;
+        io::picture::write(&self.output, &picture)?;
+        session.finish()?;
+        Ok(())
+    }
+}
