@@ -43,7 +43,7 @@ pub fn image(text: &str) -> Result<PathBuf, String> {
 }
 
 /// A finite number.
-fn number(text: &str) -> Result<f64, String> {
+pub fn number(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| "expected a finite number".to_owned())
 }
 

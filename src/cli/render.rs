@@ -1,8 +1,8 @@
 //! `overpaint render`.
 
-use std::path::PathBuf;
+use std::{fmt::Display, path::PathBuf};
 
-use clap::{Args, CommandFactory, error::ErrorKind};
+use clap::{Args, CommandFactory, ValueEnum, error::ErrorKind};
 
 use super::{Cli, CliError, arguments, output, session::SessionArguments};
 use crate::{
@@ -48,9 +48,18 @@ struct CoatArguments {
     /// Kubelka-Munk thickness where the pattern is full, in the unit of the paint's set
     #[arg(long, value_name = "D", requires = "paint", value_parser = arguments::not_negative)]
     thickness: Option<f64>,
-    /// Where the paint lies
-    #[arg(long, requires = "paint", default_value = "full", value_parser = pattern)]
-    pattern: Pattern,
+    /// How the paint is laid on
+    #[arg(long, requires = "paint", value_enum, default_value_t = PatternName::Uniform)]
+    pattern: PatternName,
+    /// Which splash or which stroke
+    #[arg(long, value_name = "N", requires = "paint", default_value_t = 1)]
+    seed: u32,
+    /// Direction of the brush stroke in degrees, counter-clockwise from the right
+    #[arg(long, value_name = "PHI", requires = "paint", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::number)]
+    angle: f64,
+    /// Width of the brush stroke, as a part of the material's shorter edge
+    #[arg(long, value_name = "W", requires = "paint", default_value_t = 0.3, value_parser = arguments::positive)]
+    width: f64,
     /// Height of the paint where the pattern is full, in texel widths
     #[arg(long, value_name = "H", requires = "paint", default_value_t = 0.0, value_parser = arguments::not_negative)]
     relief: f64,
@@ -62,6 +71,17 @@ struct CoatArguments {
     roughness: f64,
 }
 
+/// A pattern without its settings.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum PatternName {
+    /// The same thickness everywhere
+    Uniform,
+    /// Blobs, fingers and drops
+    Splash,
+    /// One stroke through the middle
+    Brush,
+}
+
 impl CoatArguments {
     /// The coat, if there is one.
     fn coat(self) -> Result<Option<Coat>, CliError> {
@@ -70,8 +90,14 @@ impl CoatArguments {
         };
         let (relief, refractive_index, roughness) = (self.relief, self.refractive_index, self.roughness);
         let layer = Layer { paint, thickness, relief, refractive_index, roughness };
-        let layer = layer.checked().map_err(|error| Cli::command().error(ErrorKind::ValueValidation, error))?;
-        Ok(Some(Coat { layer, pattern: self.pattern }))
+        let pattern = match self.pattern {
+            PatternName::Uniform => Pattern::Uniform,
+            PatternName::Splash => Pattern::Splash { seed: self.seed },
+            PatternName::Brush => Pattern::Brush { seed: self.seed, angle: self.angle.to_radians(), width: self.width },
+        };
+        let layer = layer.checked().map_err(|error| out_of_range(&error))?;
+        let pattern = pattern.checked().map_err(|error| out_of_range(&error))?;
+        Ok(Some(Coat { layer, pattern }))
     }
 }
 
@@ -79,11 +105,8 @@ fn paint(name: &str) -> Result<Paint, String> {
     pigments::find(name).map(Paint::from).map_err(|error| error.to_string())
 }
 
-fn pattern(name: &str) -> Result<Pattern, String> {
-    match name {
-        "full" => Ok(Pattern::Full),
-        _ => Err("expected full".to_owned()),
-    }
+fn out_of_range(error: &dyn Display) -> CliError {
+    Cli::command().error(ErrorKind::ValueValidation, error).into()
 }
 
 impl Render {

@@ -28,6 +28,8 @@ const VIEWS: [(f64, f64); 2] = [(0.0, 0.0), (50.0, 257.0)];
 
 /// Paints and the thicknesses that each is shown at.
 const PAINTS: [(&str, [f64; 2]); 2] = [("watercolour/cadmium yellow", [0.3, 1.5]), ("watercolour/cerulean blue", [0.3, 1.5])];
+/// Where the paint lies.
+const PATTERN: Pattern = Pattern::Splash { seed: 7 };
 /// Height in texel widths of a coat of thickness 1.
 const RELIEF: f64 = 1.0;
 /// (θ, φ) in degrees of the painted pictures' view and light, and their size in pixels.
@@ -163,7 +165,7 @@ impl Job<'_> {
                 let Ok(pigment) = pigments::find(name) else { continue };
                 let layer = Layer::new(Paint::from(pigment), thickness, RELIEF * thickness);
                 cells
-                    .push(Cell { picture: render(Some(&Coat { layer, pattern: Pattern::Full }))?, note: format!("thickness {thickness}") });
+                    .push(Cell { picture: render(Some(&Coat { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
             }
             rows.push(Row { label: name, cells });
         }

@@ -138,8 +138,6 @@ pub mod io {
 
 /// Paints.
 pub mod paint {
-    use super::Map;
-
     /// sRGB to linear.
     #[must_use]
     pub fn linear_from_srgb(srgb: f64) -> f64 {
@@ -201,14 +199,40 @@ pub mod paint {
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub enum Pattern {
         /// Everywhere.
-        Full,
+        Uniform,
+        /// A splash.
+        Splash {
+            /// Which.
+            seed: u32,
+        },
+        /// A stroke.
+        Brush {
+            /// Which.
+            seed: u32,
+            /// Radians.
+            angle: f64,
+            /// Part of the shorter edge.
+            width: f64,
+        },
+    }
+
+    /// A pattern that cannot be.
+    #[derive(Debug, thiserror::Error)]
+    #[error("the width of a brush stroke is {found}")]
+    pub struct PatternError {
+        found: f64,
     }
 
     impl Pattern {
-        /// Drawn thickness.
-        #[must_use]
-        pub fn draw(self, width: usize, height: usize) -> Map<f32> {
-            Map::from_fn(width, height, |_, _| 1.0)
+        /// Checks.
+        ///
+        /// # Errors
+        /// [`PatternError`].
+        pub fn checked(self) -> Result<Self, PatternError> {
+            match self {
+                Self::Brush { width, .. } if width > 0.5 => Err(PatternError { found: width }),
+                _ => Ok(self),
+            }
         }
     }
 
