@@ -29,22 +29,22 @@ pub struct Fit {
     #[arg(long, default_value = "periodic", value_parser = arguments::boundary())]
     boundary: Boundary,
     /// Steepest slope of photometric stereo, as a tangent
-    #[arg(long, value_name = "TAN", default_value_t = FitSettings::default().max_slope, value_parser = arguments::positive)]
+    #[arg(long, value_name = "TAN", default_value_t = FitSettings::default().max_slope, allow_negative_numbers = true, value_parser = arguments::positive)]
     max_slope: f64,
     /// Leave out lights whose cosine to the normal is below this
-    #[arg(long, value_name = "COS", default_value_t = FitSettings::default().min_cos_light, value_parser = arguments::fraction)]
+    #[arg(long, value_name = "COS", default_value_t = FitSettings::default().min_cos_light, allow_negative_numbers = true, value_parser = arguments::fraction)]
     min_cos_light: f64,
     /// Quantile of the reflectance that is taken as diffuse
-    #[arg(long, value_name = "Q", default_value_t = FitSettings::default().diffuse_quantile, value_parser = arguments::fraction)]
+    #[arg(long, value_name = "Q", default_value_t = FitSettings::default().diffuse_quantile, allow_negative_numbers = true, value_parser = arguments::fraction)]
     diffuse_quantile: f64,
     /// Levenberg-Marquardt steps at most
-    #[arg(long, value_name = "N", default_value_t = FitSettings::default().max_iterations, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = FitSettings::default().max_iterations, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     iterations: u32,
     /// How the specular albedo follows from the lobe
     #[arg(long, value_name = "RULE", default_value = "least-squares", value_parser = arguments::specular_scale())]
     specular_scale: SpecularScale,
     /// With mean-ratio: leave out samples whose lobe is below this
-    #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, value_parser = arguments::positive)]
+    #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, allow_negative_numbers = true, value_parser = arguments::positive)]
     min_lobe: f64,
 }
 

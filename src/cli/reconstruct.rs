@@ -19,10 +19,10 @@ pub struct Reconstruct {
     /// The material, as `fit` wrote it
     material: PathBuf,
     /// Direction of the view
-    #[arg(long, value_name = "THETA,PHI", value_parser = arguments::direction)]
+    #[arg(long, value_name = "THETA,PHI", allow_hyphen_values = true, value_parser = arguments::direction)]
     view: Direction,
     /// Direction of the light
-    #[arg(long, value_name = "THETA,PHI", value_parser = arguments::direction)]
+    #[arg(long, value_name = "THETA,PHI", allow_hyphen_values = true, value_parser = arguments::direction)]
     light: Direction,
     /// The image to write: .png (sRGB) or .exr (linear, 32-bit float)
     #[arg(short, long, value_name = "IMAGE", value_parser = arguments::image)]

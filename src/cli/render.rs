@@ -25,13 +25,13 @@ pub struct Render {
     #[command(flatten)]
     coat: CoatArguments,
     /// Direction of the view
-    #[arg(long, value_name = "THETA,PHI", default_value = "40,270", value_parser = arguments::direction)]
+    #[arg(long, value_name = "THETA,PHI", default_value = "40,270", allow_hyphen_values = true, value_parser = arguments::direction)]
     view: Direction,
     /// Direction of the light
-    #[arg(long, value_name = "THETA,PHI", default_value = "50,135", value_parser = arguments::direction)]
+    #[arg(long, value_name = "THETA,PHI", default_value = "50,135", allow_hyphen_values = true, value_parser = arguments::direction)]
     light: Direction,
     /// Size of the image in pixels
-    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = arguments::size)]
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true, value_parser = arguments::size)]
     size: [u32; 2],
     /// The image to write: .png (sRGB) or .exr (linear, 32-bit float)
     #[arg(short, long, value_name = "IMAGE", value_parser = arguments::image)]
@@ -46,7 +46,7 @@ struct CoatArguments {
     #[arg(long, value_name = "NAME", requires = "thickness", value_parser = paint)]
     paint: Option<Paint>,
     /// Kubelka-Munk thickness where the pattern is full, in the unit of the paint's set
-    #[arg(long, value_name = "D", requires = "paint", value_parser = arguments::not_negative)]
+    #[arg(long, value_name = "D", requires = "paint", allow_negative_numbers = true, value_parser = arguments::not_negative)]
     thickness: Option<f64>,
     /// How the paint is laid on
     #[arg(long, requires = "paint", value_enum, default_value_t = PatternName::Uniform)]
@@ -58,16 +58,16 @@ struct CoatArguments {
     #[arg(long, value_name = "PHI", requires = "paint", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::number)]
     angle: f64,
     /// Width of the brush stroke, as a part of the material's shorter edge
-    #[arg(long, value_name = "W", requires = "paint", default_value_t = 0.3, value_parser = arguments::positive)]
+    #[arg(long, value_name = "W", requires = "paint", default_value_t = 0.3, allow_negative_numbers = true, value_parser = arguments::positive)]
     width: f64,
     /// Height of the paint where the pattern is full, in texel widths
-    #[arg(long, value_name = "H", requires = "paint", default_value_t = 0.0, value_parser = arguments::not_negative)]
+    #[arg(long, value_name = "H", requires = "paint", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::not_negative)]
     relief: f64,
     /// Refractive index of the binder
-    #[arg(long, value_name = "N", requires = "paint", default_value_t = 1.5, value_parser = arguments::refractive_index)]
+    #[arg(long, value_name = "N", requires = "paint", default_value_t = 1.5, allow_negative_numbers = true, value_parser = arguments::refractive_index)]
     refractive_index: f64,
     /// Width of the paint's highlight (GGX alpha)
-    #[arg(long, value_name = "A", requires = "paint", default_value_t = 0.3, value_parser = arguments::roughness)]
+    #[arg(long, value_name = "A", requires = "paint", default_value_t = 0.3, allow_negative_numbers = true, value_parser = arguments::roughness)]
     roughness: f64,
 }
 

@@ -164,8 +164,7 @@ impl Job<'_> {
                 // The library holds the paints named above.
                 let Ok(pigment) = pigments::find(name) else { continue };
                 let layer = Layer::new(Paint::from(pigment), thickness, RELIEF * thickness);
-                cells
-                    .push(Cell { picture: render(Some(&Coat { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
+                cells.push(Cell { picture: render(Some(&Coat { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
             }
             rows.push(Row { label: name, cells });
         }

@@ -174,7 +174,7 @@ pub mod paint {
 
     /// A layer that cannot be.
     #[derive(Debug, thiserror::Error)]
-    #[error("{found} is out of range")]
+    #[error("{found} is not at most 1e6")]
     pub struct PaintError {
         found: f64,
     }
@@ -191,7 +191,7 @@ pub mod paint {
         /// # Errors
         /// [`PaintError`].
         pub fn checked(self) -> Result<Self, PaintError> {
-            if self.thickness > 1e6 { Err(PaintError { found: self.thickness }) } else { Ok(self) }
+            if self.thickness > 1e6 { Err(PaintError { found: 1e6 }) } else { Ok(self) }
         }
     }
 
@@ -252,7 +252,11 @@ pub mod paint {
             name: String,
         }
 
-        const PIGMENTS: [Pigment; 2] = [Pigment { name: "watercolour/cadmium yellow" }, Pigment { name: "watercolour/cerulean blue" }];
+        const PIGMENTS: [Pigment; 3] = [
+            Pigment { name: "oil/viridian" },
+            Pigment { name: "watercolour/cadmium yellow" },
+            Pigment { name: "watercolour/cerulean blue" },
+        ];
 
         impl Pigment {
             /// With its set.
