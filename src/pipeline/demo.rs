@@ -49,7 +49,7 @@ pub fn demo(gpu: &Gpu, folder: &Path, progress: &Progress) -> Result<(), Pipelin
     let job = Job { source: source.as_ref(), material: &material, studio: Studio::new(gpu)?, progress };
     progress.expect(4);
     let mut report = Report::new(folder, "A woven cloth, measured and painted", &introduction(source.btf(), gpu));
-    for figure in [Job::recovered, Job::from_above, Job::from_the_side, Job::painted] {
+    for figure in [Job::recovered, Job::above, Job::oblique, Job::painted] {
         let figure = figure(&job)?;
         let _stage = progress.stage("report", 0, 0);
         report.figure(&figure)?;
@@ -109,12 +109,12 @@ impl Job<'_> {
     }
 
     /// Thesis fig. 4.1.
-    fn from_above(&self) -> Result<Figure, PipelineError> {
+    fn above(&self) -> Result<Figure, PipelineError> {
         self.comparison("above", "Original and reconstruction, seen from above", VIEWS[0])
     }
 
     /// Thesis fig. 4.2.
-    fn from_the_side(&self) -> Result<Figure, PipelineError> {
+    fn oblique(&self) -> Result<Figure, PipelineError> {
         self.comparison("oblique", "Original and reconstruction, seen obliquely", VIEWS[1])
     }
 
@@ -190,7 +190,7 @@ impl Job<'_> {
         let _stage = self.progress.stage("decode", btf.texels(), 1);
         let texels = self.source.decode(sample)?;
         let linear = |code: u8| match btf.transfer() {
-            Transfer::Srgb => linear_from_srgb(f64::from(code) / 255.0) as f32,
+            Transfer::Srgb => light(f32::from(code) / 255.0),
             Transfer::Linear => f32::from(code) / 255.0,
         };
         Ok(Map::from_fn(width, height, |column, row| {
@@ -214,8 +214,14 @@ fn range(map: &Map<f32>) -> (f32, f32) {
 
 /// The linear light that a PNG stores as the code `value`, from 0 to 1: for pictures that show numbers, not light.
 fn coded(value: [f32; 3]) -> [f32; 4] {
-    let [red, green, blue] = value.map(|value| linear_from_srgb(f64::from(value)) as f32);
+    let [red, green, blue] = value.map(light);
     [red, green, blue, 1.0]
+}
+
+/// The linear light of an sRGB value, both from 0 to 1.
+#[expect(clippy::cast_possible_truncation, reason = "a picture holds f32")]
+fn light(srgb: f32) -> f32 {
+    linear_from_srgb(f64::from(srgb)) as f32
 }
 
 /// max(a − b, 0).

@@ -1,4 +1,5 @@
 //! Stand-ins, with the signatures of what is written elsewhere.
+#![expect(clippy::cast_possible_truncation, reason = "small numbers")]
 
 /// Readers and writers.
 pub mod io {
