@@ -190,7 +190,7 @@ impl Job<'_> {
         let _stage = self.progress.stage("decode", btf.texels(), 1);
         let texels = self.source.decode(sample)?;
         let linear = |code: u8| match btf.transfer() {
-            Transfer::Srgb => light(f32::from(code) / 255.0),
+            Transfer::Srgb => decoded(f32::from(code) / 255.0),
             Transfer::Linear => f32::from(code) / 255.0,
         };
         Ok(Map::from_fn(width, height, |column, row| {
@@ -214,13 +214,13 @@ fn range(map: &Map<f32>) -> (f32, f32) {
 
 /// The linear light that a PNG stores as the code `value`, from 0 to 1: for pictures that show numbers, not light.
 fn coded(value: [f32; 3]) -> [f32; 4] {
-    let [red, green, blue] = value.map(light);
+    let [red, green, blue] = value.map(decoded);
     [red, green, blue, 1.0]
 }
 
 /// The linear light of an sRGB value, both from 0 to 1.
 #[expect(clippy::cast_possible_truncation, reason = "a picture holds f32")]
-fn light(srgb: f32) -> f32 {
+fn decoded(srgb: f32) -> f32 {
     linear_from_srgb(f64::from(srgb)) as f32
 }
 
