@@ -6,7 +6,7 @@
 //!
 //! - [`cli`]: the command line.
 //! - [`pipeline`]: chains stages, owns buffers, submits, reports progress.
-//! - [`stage`]: host side of the compute stages.
+//! - [`stage`]: host side of the compute stages; [`render`]: of the render passes.
 //! - [`gpu`]: all of wgpu; [`wgsl`]: the embedded kernels.
 //! - [`reference`]: a CPU twin of each stage, in f64, for its tests.
 //! - [`io`]: readers and writers.
@@ -15,11 +15,10 @@
 pub mod cli;
 pub mod data;
 pub mod gpu;
+pub mod io;
 pub mod model;
 pub mod pipeline;
 pub mod reference;
 pub mod render;
 pub mod stage;
 pub mod wgsl;
-
-pub use pipeline::pending::io;

@@ -62,6 +62,14 @@ pub fn fraction(text: &str) -> Result<f64, String> {
     number(text).ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| "expected a number from 0 to 1".to_owned())
 }
 
+/// "LEAST,GREATEST" of an exponent, 0 < least <= greatest.
+pub fn exponents(text: &str) -> Result<[f64; 2], String> {
+    let bounds = text.split_once(',').and_then(|(least, greatest)| Some([number(least).ok()?, number(greatest).ok()?]));
+    bounds
+        .filter(|[least, greatest]| 0.0 < *least && least <= greatest)
+        .ok_or_else(|| "expected two numbers above 0, the smaller first, such as 1,1000".to_owned())
+}
+
 /// A number above 0 and up to 1.
 pub fn roughness(text: &str) -> Result<f64, String> {
     fraction(text).ok().filter(|value| *value > 0.0).ok_or_else(|| "expected a number above 0, up to 1".to_owned())

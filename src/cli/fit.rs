@@ -28,6 +28,9 @@ pub struct Fit {
     /// What lies beyond the sample's edge: periodic if it tiles, mirror if it is a cut-out
     #[arg(long, default_value = "periodic", value_parser = arguments::boundary())]
     boundary: Boundary,
+    /// With mirror: keep the height's mean tilt
+    #[arg(long)]
+    keep_tilt: bool,
     /// Steepest slope of photometric stereo, as a tangent
     #[arg(long, value_name = "TAN", default_value_t = FitSettings::default().max_slope, allow_negative_numbers = true, value_parser = arguments::positive)]
     max_slope: f64,
@@ -40,6 +43,9 @@ pub struct Fit {
     /// Levenberg-Marquardt steps at most
     #[arg(long, value_name = "N", default_value_t = FitSettings::default().max_iterations, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     iterations: u32,
+    /// Bounds of the lobe's exponent
+    #[arg(long, value_name = "MIN,MAX", default_value = "1,1000", allow_hyphen_values = true, value_parser = arguments::exponents)]
+    exponents: [f64; 2],
     /// How the specular albedo follows from the lobe
     #[arg(long, value_name = "RULE", default_value = "least-squares", value_parser = arguments::specular_scale())]
     specular_scale: SpecularScale,
@@ -58,6 +64,9 @@ impl Fit {
             max_iterations: self.iterations,
             specular_scale: self.specular_scale,
             min_lobe: self.min_lobe,
+            detilt: !self.keep_tilt,
+            exponents: self.exponents,
+            ..FitSettings::default()
         };
         output::check_material(&self.output)?;
         let source = io::open(&self.source)?;

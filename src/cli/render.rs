@@ -6,10 +6,10 @@ use clap::{Args, CommandFactory, ValueEnum, error::ErrorKind};
 
 use super::{Cli, CliError, arguments, output, session::SessionArguments};
 use crate::{
-    data::Direction,
+    data::{Direction, PlaneView},
     io,
     model::{Layer, Paint, Pattern, pigments},
-    pipeline::{Coat, Studio},
+    pipeline::{Painting, Studio},
 };
 
 /// Show a material as a plane in space, bare or painted.
@@ -23,7 +23,7 @@ pub struct Render {
     /// The material, as `fit` wrote it
     material: PathBuf,
     #[command(flatten)]
-    coat: CoatArguments,
+    paint: PaintArguments,
     /// Direction of the view
     #[arg(long, value_name = "THETA,PHI", default_value = "40,270", allow_hyphen_values = true, value_parser = arguments::direction)]
     view: Direction,
@@ -38,10 +38,10 @@ pub struct Render {
     output: PathBuf,
 }
 
-/// The coat of paint as typed.
+/// The layer of paint as typed.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Paint")]
-struct CoatArguments {
+struct PaintArguments {
     /// A paint of the library, with its set or without: "oil/viridian", "viridian"
     #[arg(long, value_name = "NAME", requires = "thickness", value_parser = paint)]
     paint: Option<Paint>,
@@ -82,9 +82,9 @@ enum PatternName {
     Brush,
 }
 
-impl CoatArguments {
-    /// The coat, if there is one.
-    fn coat(self) -> Result<Option<Coat>, CliError> {
+impl PaintArguments {
+    /// The layer and where it is drawn, if there is one.
+    fn painting(self) -> Result<Option<Painting>, CliError> {
         let (Some(paint), Some(thickness)) = (self.paint, self.thickness) else {
             return Ok(None);
         };
@@ -97,7 +97,7 @@ impl CoatArguments {
         };
         let layer = layer.checked().map_err(|error| out_of_range(&error))?;
         let pattern = pattern.checked().map_err(|error| out_of_range(&error))?;
-        Ok(Some(Coat { layer, pattern }))
+        Ok(Some(Painting { layer, pattern }))
     }
 }
 
@@ -111,12 +111,12 @@ fn out_of_range(error: &dyn Display) -> CliError {
 
 impl Render {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
-        let coat = self.coat.coat()?;
+        let painting = self.paint.painting()?;
         output::check_file(&self.output)?;
         let material = io::material::load(&self.material)?;
         let session = session.open()?;
         let studio = Studio::new(&session.gpu)?;
-        let picture = studio.render(&material, coat.as_ref(), self.view, self.light, self.size, &session.progress)?;
+        let picture = studio.render(&material, painting.as_ref(), &PlaneView::new(self.view, self.light, self.size), &session.progress)?;
         io::picture::write(&self.output, &picture)?;
         session.finish()?;
         Ok(())

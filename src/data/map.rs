@@ -31,7 +31,11 @@ impl<T> Map<T> {
     /// [`ShapeError`] if there are not width x height of them.
     pub fn new(width: usize, height: usize, values: Vec<T>) -> Result<Self, ShapeError> {
         let expected = width * height;
-        if values.len() == expected { Ok(Self { width, height, values }) } else { Err(ShapeError { width, height, expected, found: values.len() }) }
+        if values.len() == expected {
+            Ok(Self { width, height, values })
+        } else {
+            Err(ShapeError { width, height, expected, found: values.len() })
+        }
     }
 
     /// A map with the value that `value(column, row)` gives for each texel.

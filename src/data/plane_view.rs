@@ -19,3 +19,11 @@ pub struct PlaneView {
     /// Rays a pixel along each axis, so `samples`² in all; at least one is cast.
     pub samples: u32,
 }
+
+impl PlaneView {
+    /// A picture with a small margin and four rays a pixel.
+    #[must_use]
+    pub fn new(view: Direction, light: Direction, size: [u32; 2]) -> Self {
+        Self { view, light, size, margin: 0.04, samples: 2 }
+    }
+}

@@ -54,7 +54,9 @@ pub enum GpuError {
         limit: u64,
     },
     /// The adapter ran out of memory.
-    #[error("the adapter has no memory left for buffer \"{label}\" of {bytes} bytes. Close other programs that use the GPU, or work on a smaller region")]
+    #[error(
+        "the adapter has no memory left for buffer \"{label}\" of {bytes} bytes. Close other programs that use the GPU, or work on a smaller region"
+    )]
     OutOfMemory {
         /// The buffer's name.
         label: String,

@@ -96,11 +96,8 @@ pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
         resources.push((binding.binding, Resource { name, access, stride, fields }));
     }
     resources.sort_by_key(|(binding, _)| *binding);
-    let workgroup_size = module
-        .entry_points
-        .iter()
-        .find(|entry| entry.stage == naga::ShaderStage::Compute)
-        .map(|entry| entry.workgroup_size);
+    let workgroup_size =
+        module.entry_points.iter().find(|entry| entry.stage == naga::ShaderStage::Compute).map(|entry| entry.workgroup_size);
     Ok(Reflection { resources, workgroup_size })
 }
 

@@ -77,7 +77,13 @@ impl Target {
         if width > limit || height > limit {
             let limit = u64::from(limit) * u64::from(limit) * 16;
             let label = format!("picture of {width} x {height}");
-            return Err(GpuError::TooLarge { label, bytes, adapter: gpu.adapter().name.clone(), limit, limit_name: "maxTextureDimension2D" });
+            return Err(GpuError::TooLarge {
+                label,
+                bytes,
+                adapter: gpu.adapter().name.clone(),
+                limit,
+                limit_name: "maxTextureDimension2D",
+            });
         }
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {

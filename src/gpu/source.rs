@@ -53,9 +53,11 @@ impl Linker<'_> {
         }
         self.path.push(source.name);
         for import in source.imports() {
-            let found = self.library.iter().find(|candidate| candidate.name == import).ok_or_else(|| {
-                LinkError::UnknownImport { importer: source.name.to_owned(), import: import.to_owned() }
-            })?;
+            let found = self
+                .library
+                .iter()
+                .find(|candidate| candidate.name == import)
+                .ok_or_else(|| LinkError::UnknownImport { importer: source.name.to_owned(), import: import.to_owned() })?;
             self.join(found)?;
         }
         self.path.pop();

@@ -23,4 +23,3 @@ pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;
 pub use relief::Relief;
 pub use settings::{FitSettings, SpecularScale};
-pub use super::pipeline::pending::paint::{Layer, Paint, PaintError, Pattern, linear_from_srgb, pigments};

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use super::{
-    Coat, PipelineError, Progress, Studio, fit,
+    Painting, PipelineError, Progress, Studio, fit,
     report::{Cell, Figure, Report, Row},
 };
 use crate::{
-    data::{Btf, Direction, Map, Material, Transfer},
+    data::{Btf, Direction, Map, Material, PlaneView, Transfer},
     gpu::Gpu,
     io::{self, Source},
-    model::{FitSettings, Layer, Paint, Pattern, linear_from_srgb, pigments},
+    model::{FitSettings, Layer, Paint, Pattern, color::linear_from_srgb, pigments},
 };
 
 /// Name of the report in the demo's folder.
@@ -155,7 +155,8 @@ impl Job<'_> {
     /// The bare material and two paints, each at two thicknesses.
     fn painted(&self) -> Result<Figure, PipelineError> {
         let [view, light] = [PAINTED_VIEW, PAINTED_LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
-        let render = |coat: Option<&Coat>| self.studio.render(self.material, coat, view, light, PAINTED_SIZE, self.progress);
+        let shot = PlaneView::new(view, light, PAINTED_SIZE);
+        let render = |painting: Option<&Painting>| self.studio.render(self.material, painting, &shot, self.progress);
         let bare = render(None)?;
         let mut rows = Vec::new();
         for (name, thicknesses) in PAINTS {
@@ -164,7 +165,7 @@ impl Job<'_> {
                 // The library holds the paints named above.
                 let Ok(pigment) = pigments::find(name) else { continue };
                 let layer = Layer::new(Paint::from(pigment), thickness, RELIEF * thickness);
-                cells.push(Cell { picture: render(Some(&Coat { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
+                cells.push(Cell { picture: render(Some(&Painting { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
             }
             rows.push(Row { label: name, cells });
         }

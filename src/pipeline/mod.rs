@@ -1,10 +1,17 @@
 //! Chains stages: owns buffers, cuts a source into tiles, submits, and reports progress.
 
 mod demo;
-pub mod pending;
+mod error;
+mod fit;
+mod geometry;
 mod progress;
+mod reflectance;
 mod report;
+mod studio;
+mod tiles;
 
 pub use demo::{REPORT, demo};
-pub use pending::{Coat, PipelineError, Studio, fit};
+pub use error::PipelineError;
+pub use fit::fit;
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
+pub use studio::{Painting, Studio};

@@ -52,7 +52,8 @@ pub fn lafortune_fit(start: [f64; 4], s: &[f64], samples: &Samples, settings: &F
         }
         if (lobe[3] <= least && gradient.w > 0.0) || (lobe[3] >= greatest && gradient.w < 0.0) {
             gradient.w = 0.0;
-            curvature = DMat4::from_cols(curvature.x_axis.with_w(0.0), curvature.y_axis.with_w(0.0), curvature.z_axis.with_w(0.0), DVec4::W);
+            curvature =
+                DMat4::from_cols(curvature.x_axis.with_w(0.0), curvature.y_axis.with_w(0.0), curvature.z_axis.with_w(0.0), DVec4::W);
         }
         let mut decrease = 0.0;
         while damping < 1e12 {

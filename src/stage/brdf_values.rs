@@ -3,7 +3,10 @@
 
 use half::f16;
 
-use super::{scalar::{count, single}, tile::{Tile}};
+use super::{
+    scalar::{count, single},
+    tile::Tile,
+};
 use crate::{
     data::{OCTET, Samples},
     gpu::{Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -50,12 +53,7 @@ impl BrdfValues {
         let values = gpu.fresh("reflectance", 3 * octets * texels)?;
         recorder.dispatch(
             &self.kernel,
-            &[
-                bind("params", &params),
-                bind("inverse_cosines", &inverse),
-                bind("radiance", &radiance.values),
-                bind("reflectance", &values),
-            ],
+            &[bind("params", &params), bind("inverse_cosines", &inverse), bind("radiance", &radiance.values), bind("reflectance", &values)],
             Grid::threads(3 * octets * texels),
         )?;
         Ok(Tile { values, texels, samples: radiance.samples })

@@ -12,7 +12,10 @@
 
 use half::f16;
 
-use super::{scalar::{count, single}, tile::{upload_products}};
+use super::{
+    scalar::{count, single},
+    tile::upload_products,
+};
 use crate::{
     data::{OCTET, Samples},
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -182,12 +185,8 @@ impl Descents<'_> {
             ..StepParams::default()
         };
         let params = gpu.uniform("lafortune_fit params", &params)?;
-        let binds = [
-            bind("params", &params),
-            bind("products", &self.products),
-            bind("residual", self.residual),
-            bind("states", &self.states),
-        ];
+        let binds =
+            [bind("params", &params), bind("products", &self.products), bind("residual", self.residual), bind("states", &self.states)];
         for _ in 0..self.settings.max_iterations {
             recorder.dispatch(&self.stage.step, &binds, Grid::threads(self.texels))?;
         }

@@ -7,7 +7,10 @@
 
 use half::f16;
 
-use super::{scalar::{count, single}, tile::{Tile}};
+use super::{
+    scalar::{count, single},
+    tile::Tile,
+};
 use crate::{
     data::OCTET,
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},

@@ -8,7 +8,7 @@
 use glam::{DMat3, DVec3};
 use half::f16;
 
-use super::StageError;
+use super::{StageError, Tile, scalar::count};
 use crate::{
     data::Direction,
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -44,27 +44,24 @@ impl PhotometricStereo {
         Ok(Self { kernel: Kernel::new(gpu, &wgsl::PHOTOMETRIC_STEREO, wgsl::ALL, &resources)? })
     }
 
-    /// Unit normal (x right, y up, z out) and, fourth, albedo |g| of each of `texels` texels; (0, 0, 1) and 0 where all
+    /// Unit normal (x right, y up, z out) and, fourth, albedo |g| of each texel; (0, 0, 1) and 0 where all
     /// samples are black.
     ///
-    /// `samples` `[channel][octet][texel]` holds linear radiance in reflectance units of one view, near the zenith, lit from
+    /// `samples` holds linear radiance in reflectance units of one view, near the zenith, lit from
     /// each of `lights` in turn.
     ///
     /// # Errors
     /// [`StageError::TooFewLights`] or [`StageError::CoplanarLights`] if the lights do not determine a normal;
     /// [`StageError::Gpu`] if the result does not fit the adapter.
-    pub fn record(
-        &self, recorder: &mut Recorder<'_>, samples: &Buffer<[f16; 8]>, texels: u32, lights: &[Direction],
-    ) -> Result<Buffer<[f32; 4]>, StageError> {
+    pub fn record(&self, recorder: &mut Recorder<'_>, samples: &Tile, lights: &[Direction]) -> Result<Buffer<[f32; 4]>, StageError> {
         let weights = weights(lights)?;
-        let octets = weights.len() / 8;
         let gpu = recorder.gpu();
-        let octets = u32::try_from(octets).unwrap_or(u32::MAX);
-        let params = gpu.uniform("photometric stereo params", &Params { texels, octets })?;
+        let params = Params { texels: count(samples.texels), octets: count(samples.octets()) };
+        let params = gpu.uniform("photometric stereo params", &params)?;
         let weights = gpu.upload("photometric stereo weights", &weights)?;
-        let normals = gpu.fresh("measured normals", texels as usize)?;
-        let binds = [bind("params", &params), bind("samples", samples), bind("weights", &weights), bind("normals", &normals)];
-        recorder.dispatch(&self.kernel, &binds, Grid::threads(texels as usize))?;
+        let normals = gpu.fresh("measured normals", samples.texels)?;
+        let binds = [bind("params", &params), bind("samples", &samples.values), bind("weights", &weights), bind("normals", &normals)];
+        recorder.dispatch(&self.kernel, &binds, Grid::threads(samples.texels))?;
         Ok(normals)
     }
 }

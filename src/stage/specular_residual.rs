@@ -3,7 +3,7 @@
 
 use half::f16;
 
-use super::{scalar::{count}, tile::{Tile}};
+use super::{scalar::count, tile::Tile};
 use crate::{
     data::OCTET,
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -39,7 +39,9 @@ impl SpecularResidual {
     ///
     /// # Errors
     /// [`GpuError`] if the result does not fit the adapter.
-    pub fn record(&self, recorder: &mut Recorder<'_>, reflectance: &Tile, diffuse: &Buffer<[f32; 4]>) -> Result<Buffer<[f16; OCTET]>, GpuError> {
+    pub fn record(
+        &self, recorder: &mut Recorder<'_>, reflectance: &Tile, diffuse: &Buffer<[f32; 4]>,
+    ) -> Result<Buffer<[f16; OCTET]>, GpuError> {
         let gpu = recorder.gpu();
         let (texels, octets) = (reflectance.texels, reflectance.octets());
         let params = Params { texels: count(texels), octets: count(octets), samples: count(reflectance.samples), _pad: 0 };

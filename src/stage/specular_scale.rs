@@ -6,7 +6,10 @@
 
 use half::f16;
 
-use super::{scalar::{count, single}, tile::{Tile, upload_products}};
+use super::{
+    scalar::{count, single},
+    tile::{Tile, upload_products},
+};
 use crate::{
     data::{OCTET, Samples},
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},

@@ -4,7 +4,7 @@
 //! Images travel as the bytes they were stored as, a third of what linear floats would take, and become linear on the
 //! adapter. Halves keep 11 bits: finer than an 8-bit code everywhere.
 
-use super::{scalar::{count}, tile::{Tile}};
+use super::{scalar::count, tile::Tile};
 use crate::{
     data::OCTET,
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
@@ -39,7 +39,8 @@ impl SrgbDecode {
     pub fn record(&self, recorder: &mut Recorder<'_>, codes: &Buffer<u32>, samples: usize, texels: usize) -> Result<Tile, GpuError> {
         let gpu = recorder.gpu();
         let octets = samples.div_ceil(OCTET);
-        let params = gpu.uniform("srgb_decode params", &Params { texels: count(texels), samples: count(samples), octets: count(octets), _pad: 0 })?;
+        let params =
+            gpu.uniform("srgb_decode params", &Params { texels: count(texels), samples: count(samples), octets: count(octets), _pad: 0 })?;
         let values = gpu.fresh("radiance", 3 * octets * texels)?;
         recorder.dispatch(
             &self.kernel,

@@ -2,7 +2,6 @@
 
 mod errors;
 mod help;
-#[expect(dead_code, reason = "listed below once the pipeline is there")]
 mod main_job;
 mod progress;
 mod usage;
@@ -13,7 +12,7 @@ use std::{
 };
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [errors::tests(), help::tests(), progress::tests(), usage::tests()].into_iter().flatten().collect()
+    [errors::tests(), help::tests(), main_job::tests(), progress::tests(), usage::tests()].into_iter().flatten().collect()
 }
 
 /// What a command printed and how it ended.

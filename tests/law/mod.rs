@@ -1,6 +1,7 @@
 //! What must hold without a twin.
 
 crate::suites! {
+    color,
     fft,
     frankot_chellappa,
     kubelka_munk,

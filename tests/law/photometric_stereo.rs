@@ -6,7 +6,7 @@ use overpaint::{
     stage::{self, StageError},
 };
 
-use crate::support::{hold, octets, random::Random};
+use crate::support::{hold, random::Random, tile};
 
 crate::suite! {
     gpu: a_lambertian_surface_is_recovered, black_texels_face_out, brightness_is_albedo, tiles_do_not_change_a_texel,
@@ -15,9 +15,9 @@ crate::suite! {
 
 fn measure(gpu: &Gpu, lights: &[Direction], texels: usize, value: impl Fn(usize, usize) -> [f16; 3]) -> Result<Vec<[f32; 4]>, StageError> {
     let stage = stage::PhotometricStereo::new(gpu)?;
-    let samples = gpu.upload("samples", &octets::pack(lights.len(), texels, value))?;
+    let tile = tile::upload(gpu, texels, lights.len(), |channel, sample, texel| value(sample, texel)[channel].to_f64());
     let mut recorder = gpu.recorder();
-    let normals = stage.record(&mut recorder, &samples, texels as u32, lights)?;
+    let normals = stage.record(&mut recorder, &tile, lights)?;
     gpu.submit(recorder).wait(gpu)?;
     Ok(normals.read(gpu)?)
 }

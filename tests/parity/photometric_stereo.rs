@@ -1,7 +1,7 @@
 use half::f16;
 use overpaint::{data::Direction, gpu::Gpu, reference, stage};
 
-use crate::support::{hold, octets, random::Random, worst_difference};
+use crate::support::{hold, random::Random, tile, worst_difference};
 
 crate::suite! { gpu: agrees_with_its_twin; }
 
@@ -15,10 +15,9 @@ fn agrees_with_its_twin(gpu: &Gpu) {
         let samples: Vec<Vec<[f16; 3]>> = (0..texels)
             .map(|_| lights.iter().map(|light| [0; 3].map(|_| f16::from_f64(light.vector().z + random.between(0.0, 0.5)))).collect())
             .collect();
-        let packed = octets::pack(count, texels, |sample, texel| samples[texel][sample]);
-        let buffer = gpu.upload("samples", &packed).expect("fits");
+        let tile = tile::upload(gpu, texels, count, |channel, sample, texel| samples[texel][sample][channel].to_f64());
         let mut recorder = gpu.recorder();
-        let normals = stage.record(&mut recorder, &buffer, texels as u32, &lights).expect("records");
+        let normals = stage.record(&mut recorder, &tile, &lights).expect("records");
         gpu.submit(recorder).wait(gpu).expect("runs");
         let found = normals.read(gpu).expect("reads");
         let expected: Vec<_> = samples

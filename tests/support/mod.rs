@@ -1,6 +1,5 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
-pub mod octets;
 pub mod probe;
 pub mod random;
 pub mod surface;

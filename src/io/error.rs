@@ -1,0 +1,272 @@
+//! What keeps a file from being read or written.
+
+use std::path::PathBuf;
+
+use crate::data::{BtfError, Direction, ShapeError};
+
+/// Everything that can go wrong with files. A `file` is a path, or an archive's path and the name inside it.
+#[derive(Debug, thiserror::Error)]
+pub enum IoError {
+    /// Nothing has that name.
+    #[error("{path} does not exist; check the spelling and the working folder", path = path.display())]
+    NotFound {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The system refused to read.
+    #[error("cannot read {file}: {source}")]
+    Read {
+        /// The file or folder.
+        file: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The system refused to write.
+    #[error("cannot write {path}: {source}", path = path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+
+    /// A file that is no archive.
+    #[error("{path} is neither a folder nor a .zip archive: it starts with {found}; name a folder or a .zip of images", path = path.display())]
+    NotAnArchive {
+        /// The file.
+        path: PathBuf,
+        /// Its first bytes.
+        found: String,
+    },
+    /// An archive that cannot be read as one.
+    #[error("the archive {file} is damaged or of an unknown kind: {message}; copy it again, or unpack it and name the folder")]
+    Archive {
+        /// The archive, with the name inside it where one entry is concerned.
+        file: String,
+        /// What the zip reader found.
+        message: String,
+    },
+    /// More bytes than an image of a BTF has.
+    #[error("{file} holds {found} bytes, more than the {limit} that are read for one image; check the file")]
+    TooManyBytes {
+        /// The file.
+        file: String,
+        /// Bytes found or declared.
+        found: u64,
+        /// Bytes read at most.
+        limit: u64,
+    },
+
+    /// A tree without images.
+    #[error("no images in {path}: expected .jpg, .png, .bmp or .tif files in it or its folders; name the folder or .zip that holds them", path = path.display())]
+    NoImages {
+        /// The folder or archive.
+        path: PathBuf,
+    },
+    /// A tree of images whose names hold no directions.
+    #[error(
+        "none of the {images} images in {path} is named by its directions: expected names such as \"tl015 pl060 tv030 pv090.jpg\" \
+         (θ and φ of light and view in degrees), found \"{first}\"; rename them",
+        path = path.display()
+    )]
+    NoDirections {
+        /// The folder or archive.
+        path: PathBuf,
+        /// Number of images.
+        images: usize,
+        /// The first of them.
+        first: String,
+    },
+    /// A direction at or below the horizon.
+    #[error(
+        "{file} names the direction {direction}, which is not above the surface: θ must be from 0 to below 90 degrees; correct the name or remove it"
+    )]
+    BelowHorizon {
+        /// The file.
+        file: String,
+        /// The direction.
+        direction: Direction,
+    },
+    /// The same view and light twice.
+    #[error(
+        "view {view}, light {light} is there twice: {first} and {second}; keep one (if they are of two materials, name the folder of one)"
+    )]
+    Repeated {
+        /// The view.
+        view: Direction,
+        /// The light.
+        light: Direction,
+        /// One file.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// Views and lights that are not a full product.
+    #[error(
+        "{path} is not complete: {views} views x {lights} lights need {expected} images, {missing} of them are missing: {first}; \
+         add them or remove the views or lights concerned{unnamed}",
+        expected = views * lights, path = path.display()
+    )]
+    Missing {
+        /// The folder or archive.
+        path: PathBuf,
+        /// Number of views.
+        views: usize,
+        /// Number of lights.
+        lights: usize,
+        /// Number of pairs without an image.
+        missing: usize,
+        /// The first of them.
+        first: String,
+        /// A remark on images without directions, or nothing.
+        unnamed: String,
+    },
+    /// A known image format that is not read.
+    #[error("{file} is {found}; images of 8 bits a channel are read, as JPEG, PNG, BMP or TIFF: convert it")]
+    Unsupported {
+        /// The file.
+        file: String,
+        /// Its format.
+        found: String,
+    },
+    /// Something else than an image.
+    #[error("{file} is no image: expected JPEG, PNG, BMP or TIFF, found a file that starts with {found}; replace or remove it")]
+    NotAnImage {
+        /// The file.
+        file: String,
+        /// Its first bytes.
+        found: String,
+    },
+    /// An image that ends too early.
+    #[error("{file} is truncated: its {bytes} bytes end before the image does; copy it again")]
+    Truncated {
+        /// The file.
+        file: String,
+        /// Bytes there are.
+        bytes: usize,
+    },
+    /// An image with wrong contents.
+    #[error("{file} is damaged: {message}; copy it again")]
+    Damaged {
+        /// The file.
+        file: String,
+        /// What the decoder found.
+        message: String,
+    },
+    /// More texels than are read.
+    #[error("{file} is {width} x {height} texels, more than the {limit} that are read for one image; crop it or reduce its size")]
+    TooManyTexels {
+        /// The file.
+        file: String,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Texels read at most.
+        limit: usize,
+    },
+    /// Images of different sizes.
+    #[error("{file} is {} x {} texels, but the tree's first image is {} x {}; all images of a material have one size: crop or replace it", found[0], found[1], expected[0], expected[1])]
+    Size {
+        /// The file.
+        file: String,
+        /// Its columns and rows.
+        found: [usize; 2],
+        /// Columns and rows of the tree's first image.
+        expected: [usize; 2],
+    },
+    /// A description that is no BTF.
+    #[error(transparent)]
+    Btf(#[from] BtfError),
+
+    /// A folder that holds no material.
+    #[error("{path} is no overpaint material: {found}; name a folder written by `overpaint fit`", path = path.display())]
+    NotAMaterial {
+        /// The folder.
+        path: PathBuf,
+        /// What was found instead.
+        found: String,
+    },
+    /// A material of another version of the format.
+    #[error("{path} has version {found} of the material format, this program reads version {expected}; use the program that wrote it, or fit again", path = path.display())]
+    Version {
+        /// The folder.
+        path: PathBuf,
+        /// Its version.
+        found: String,
+        /// The version read here.
+        expected: u64,
+    },
+    /// One array of a material.
+    #[error("array \"{array}\" of {path}: {fault}; fit the material again or restore it from a copy", path = path.display())]
+    Array {
+        /// The material.
+        path: PathBuf,
+        /// The array's name.
+        array: &'static str,
+        /// What is wrong with it.
+        fault: ArrayFault,
+    },
+    /// A target that is not to be replaced.
+    #[error("{path} is left as it is: {found}; choose another name, or move it away", path = path.display())]
+    Occupied {
+        /// The target.
+        path: PathBuf,
+        /// What stands there.
+        found: String,
+    },
+    /// Maps that do not cover one plane.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+
+    /// A picture's name without a known extension.
+    #[error("{path} must end in .png (sRGB, 8 bit) or .exr (linear, 32-bit float), found {found}; rename it", path = path.display())]
+    Extension {
+        /// The path.
+        path: PathBuf,
+        /// Its extension.
+        found: String,
+    },
+    /// A pixel that has no 8-bit code.
+    #[error("{path}: the pixel in column {column}, row {row} is not a number; write an .exr to look at the values", path = path.display())]
+    NotANumber {
+        /// The picture.
+        path: PathBuf,
+        /// Its column.
+        column: usize,
+        /// Its row.
+        row: usize,
+    },
+    /// A picture that cannot be encoded or decoded.
+    #[error("picture {path}: {message}", path = path.display())]
+    Picture {
+        /// The picture.
+        path: PathBuf,
+        /// What the library found.
+        message: String,
+    },
+}
+
+/// What is wrong with an array of a material.
+#[derive(Debug, thiserror::Error)]
+pub enum ArrayFault {
+    /// A property that is not as the format has it.
+    #[error("expected {what} {expected}, found {found}")]
+    Unexpected {
+        /// The property.
+        what: &'static str,
+        /// As the format has it.
+        expected: String,
+        /// As it is.
+        found: String,
+    },
+    /// A chunk without a file.
+    #[error("chunk {chunk} is missing")]
+    MissingChunk {
+        /// The chunk's key.
+        chunk: String,
+    },
+    /// What the Zarr library found.
+    #[error("cannot be read or written: {0}")]
+    Zarr(String),
+}

@@ -1,0 +1,105 @@
+//! The form of a material on disk: its arrays, their units and conventions.
+
+use serde_json::{Map, Value, json};
+
+/// Name of the form, in the group's attributes.
+pub const MATERIAL_FORMAT: &str = "overpaint material";
+
+/// Version of the form, in the group's attributes.
+pub(super) const VERSION: u64 = 1;
+
+/// Rows and columns of a chunk, fewer where the plane has fewer.
+pub(super) const CHUNK: u64 = 256;
+
+/// One array of the group: `[row][column]` or `[row][column][component]`.
+pub(super) struct Layout {
+    pub(super) name: &'static str,
+    /// Name of the third dimension and names of its components, if there is one.
+    pub(super) components: Option<(&'static str, &'static [&'static str])>,
+    unit: &'static str,
+    about: &'static str,
+}
+
+const XYZ: Option<(&str, &[&str])> = Some(("axis", &["x", "y", "z"]));
+const RGB: Option<(&str, &[&str])> = Some(("channel", &["R", "G", "B"]));
+
+const fn layout(
+    name: &'static str, components: Option<(&'static str, &'static [&'static str])>, unit: &'static str, about: &'static str,
+) -> Layout {
+    Layout { name, components, unit, about }
+}
+
+pub(super) const HEIGHT: Layout = layout("height", None, "texel widths", "height, positive outwards, mean zero");
+pub(super) const NORMAL: Layout = layout("normal", XYZ, "1", "unit normals of the height field");
+pub(super) const NORMAL_MEASURED: Layout = layout("normal_measured", XYZ, "1", "unit normals of photometric stereo, before integration");
+pub(super) const ALBEDO: Layout = layout("albedo", None, "reflectance", "albedo of photometric stereo");
+pub(super) const DIFFUSE: Layout = layout("diffuse", RGB, "reflectance", "rho_d");
+pub(super) const SPECULAR: Layout = layout("specular", RGB, "reflectance", "rho_s");
+pub(super) const LOBE: Layout = layout(
+    "lobe",
+    Some(("parameter", &["C_x", "C_y", "C_z", "n"])),
+    "1",
+    "lobe (C_x l_x v_x + C_y l_y v_y + C_z l_z v_z)^n, Lafortune et al. 1997",
+);
+pub(super) const OBJECTIVE_START: Layout =
+    layout("fit_objective_start", None, "reflectance^2", "mean squared residual at the start of the fit");
+pub(super) const OBJECTIVE: Layout = layout("fit_objective", None, "reflectance^2", "mean squared residual at the end of the fit");
+pub(super) const ITERATIONS: Layout = layout("fit_iterations", None, "1", "steps of Levenberg-Marquardt that were tried");
+pub(super) const STATUS: Layout = layout(
+    "fit_status",
+    None,
+    "code",
+    "0 still descending, 1 converged, 2 nothing above the diffuse part, 3 no step lowered the objective",
+);
+
+/// Names of all arrays.
+pub(super) const NAMES: [&str; 11] = [
+    HEIGHT.name,
+    NORMAL.name,
+    NORMAL_MEASURED.name,
+    ALBEDO.name,
+    DIFFUSE.name,
+    SPECULAR.name,
+    LOBE.name,
+    OBJECTIVE_START.name,
+    OBJECTIVE.name,
+    ITERATIONS.name,
+    STATUS.name,
+];
+
+impl Layout {
+    /// `[rows, columns]` or `[rows, columns, components]`.
+    pub(super) fn shape(&self, [width, height]: [u64; 2]) -> Vec<u64> {
+        let components = self.components.map(|(_, names)| names.len() as u64);
+        [Some(height), Some(width), components].into_iter().flatten().collect()
+    }
+
+    /// Shape of one chunk.
+    pub(super) fn chunk(&self, [width, height]: [u64; 2]) -> Vec<u64> {
+        self.shape([width.min(CHUNK), height.min(CHUNK)])
+    }
+
+    pub(super) fn dimensions(&self) -> Vec<&'static str> {
+        [Some("row"), Some("column"), self.components.map(|(dimension, _)| dimension)].into_iter().flatten().collect()
+    }
+
+    pub(super) fn attributes(&self) -> Map<String, Value> {
+        let mut attributes = Map::from_iter([("unit".to_owned(), json!(self.unit)), ("description".to_owned(), json!(self.about))]);
+        if let Some((_, names)) = self.components {
+            attributes.insert("components".to_owned(), json!(names));
+        }
+        attributes
+    }
+}
+
+/// What holds for every array.
+pub(super) fn conventions() -> Value {
+    json!({
+        "rows": "row 0 is the top row, column 0 the left column",
+        "axes": "x right, y up, z out of the surface; directions point away from the surface",
+        "angles": "theta from the normal, phi counter-clockwise from +x, degrees",
+        "color": "linear RGB, sRGB primaries",
+        "reflectance": "pi f_r: a white Lambertian surface has 1; an image's pixel is pi L / E, so that white lit from theta reads cos theta",
+        "model": "pi f_r = diffuse + specular * lobe",
+    })
+}

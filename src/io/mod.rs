@@ -1,0 +1,41 @@
+//! Readers and writers: measured sources, recovered materials, pictures.
+//!
+//! A reader checks what a file declares before it allocates for it. What is written appears under its name whole or
+//! not at all: it is made in a hidden folder beside its target and renamed into place.
+
+mod archive;
+mod error;
+pub mod material;
+pub mod picture;
+mod raster;
+mod source;
+mod staging;
+mod tree;
+
+use std::path::Path;
+
+pub use error::{ArrayFault, IoError};
+pub use source::{Source, open, open_zip_bytes};
+
+/// What a path holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A recovered material, which [`material::load`] reads.
+    Material,
+    /// Images named by their directions, which [`open`] reads.
+    Source,
+    /// Neither; the error of [`open`] says why.
+    Neither,
+}
+
+/// What `path` holds, judged by a material's attributes and by the names of images. No image is read.
+#[must_use]
+pub fn kind(path: &Path) -> Kind {
+    if material::is_material(path) {
+        Kind::Material
+    } else if source::is_source(path) {
+        Kind::Source
+    } else {
+        Kind::Neither
+    }
+}

@@ -1,0 +1,43 @@
+//! Results that appear whole or not at all.
+
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use super::IoError;
+
+/// A hidden folder beside a target. The result is made in it and then renamed to the target's name, which happens
+/// within one file system and therefore at once; whatever is left in the folder is removed with it. A killed process
+/// leaves the hidden folder behind and the target as it was.
+pub(super) struct Staging {
+    folder: TempDir,
+    target: PathBuf,
+}
+
+impl Staging {
+    /// Prepares to write `target`, whose folder must exist.
+    pub(super) fn beside(target: &Path) -> Result<Self, IoError> {
+        let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = tempfile::Builder::new().prefix(".overpaint-").tempdir_in(parent);
+        let folder = folder.map_err(|source| IoError::Write { path: target.to_owned(), source })?;
+        Ok(Self { folder, target: target.to_owned() })
+    }
+
+    /// Where to make the result.
+    pub(super) fn path(&self) -> PathBuf {
+        self.folder.path().join("new")
+    }
+
+    /// Renames the result to the target's name. A file there is replaced at once. A folder there is first moved into the
+    /// staging folder, and back again if the result cannot take its place.
+    pub(super) fn commit(mut self) -> Result<(), IoError> {
+        let old = self.folder.path().join("old");
+        let replaced = if self.target.is_dir() { std::fs::rename(&self.target, &old) } else { Ok(()) };
+        let result = replaced.and_then(|()| std::fs::rename(self.path(), &self.target));
+        if result.is_err() && old.exists() && std::fs::rename(&old, &self.target).is_err() {
+            // The old folder must not be removed with the staging folder.
+            self.folder.disable_cleanup(true);
+        }
+        result.map_err(|source| IoError::Write { path: self.target.clone(), source })
+    }
+}

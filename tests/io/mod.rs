@@ -1,0 +1,55 @@
+//! Readers and writers.
+
+mod archive;
+mod material;
+mod measured;
+mod picture;
+mod tree;
+
+use std::{io::Cursor, path::Path};
+
+use image::{ImageFormat, RgbImage};
+use overpaint::io::IoError;
+
+pub fn tests() -> Vec<libtest_mimic::Trial> {
+    [archive::tests(), material::tests(), measured::tests(), picture::tests(), tree::tests()].into_iter().flatten().collect()
+}
+
+/// An encoded image of smooth colours that depend on `seed`.
+fn encoded(format: ImageFormat, [width, height]: [u32; 2], seed: usize) -> Vec<u8> {
+    let image = RgbImage::from_fn(width, height, |x, y| image::Rgb([x, y, seed as u32 * 7].map(|value| (40 + 5 * value) as u8)));
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, format).expect("encodes");
+    bytes.into_inner()
+}
+
+/// Directions of a small complete tree, in degrees: (view θ, view φ, light θ, light φ), in the order of its samples.
+const PAIRS: [[u32; 4]; 6] = [[0, 0, 15, 0], [0, 0, 15, 120], [0, 0, 30, 60], [45, 90, 15, 0], [45, 90, 15, 120], [45, 90, 30, 60]];
+
+/// The name that Bonn would give a sample.
+fn bonn_name(sample: usize, extension: &str) -> String {
+    let [tv, pv, tl, pl] = PAIRS[sample];
+    format!("tv{tv:03}_pv{pv:03}/{sample:05} tl{tl:03} pl{pl:03} tv{tv:03} pv{pv:03}.{extension}")
+}
+
+/// The small tree as (name, bytes), 12 x 9 texels, JPEG.
+fn small_tree() -> Vec<(String, Vec<u8>)> {
+    (0..PAIRS.len()).map(|sample| (bonn_name(sample, "jpg"), encoded(ImageFormat::Jpeg, [12, 9], sample))).collect()
+}
+
+fn write_tree(folder: &Path, files: &[(String, Vec<u8>)]) {
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().expect("is below the folder")).expect("is writable");
+        std::fs::write(path, bytes).expect("is writable");
+    }
+}
+
+/// The error's text, which must contain each of `parts`.
+#[track_caller]
+fn assert_says<T>(result: Result<T, IoError>, parts: &[&str]) {
+    let text = result.err().expect("must fail").to_string();
+    for part in parts {
+        assert!(text.contains(part), "\"{text}\" does not contain \"{part}\"");
+    }
+}
