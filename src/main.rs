@@ -1,3 +1,15 @@
 //! overpaint's command line.
 
-fn main() {}
+use std::process::ExitCode;
+
+use overpaint::cli;
+
+fn main() -> ExitCode {
+    match cli::run(std::env::args_os()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            error.print();
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

@@ -15,10 +15,68 @@ macro_rules! sources {
 }
 
 sources! {
-    /// Index of a thread in a folded grid.
-    THREAD = "kernels/common" "thread";
     /// Neighbours of a texel under a boundary rule.
     BOUNDARY = "kernels/common" "boundary";
+    /// Reflectance from radiance.
+    BRDF_VALUES = "kernels" "brdf_values";
+    /// Real part of a corner of a complex field.
+    CROP_REAL = "kernels" "crop_real";
+    /// One pass of a Fourier transform.
+    FFT = "kernels" "fft";
+    /// Kubelka-Munk films.
+    FILM = "kernels/common" "film";
+    /// Spectrum of a height field from that of its slopes.
+    FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
+    /// One layer of paint over diffuse reflectance.
+    KUBELKA_MUNK = "kernels" "kubelka_munk";
+    /// The Lafortune lobe.
+    LAFORTUNE = "kernels/common" "lafortune";
+    /// One step of the Lafortune fit.
+    LAFORTUNE_FIT = "kernels" "lafortune_fit";
+    /// End of the Lafortune fit.
+    LAFORTUNE_RESULT = "kernels" "lafortune_result";
+    /// Begin of a descent of the Lafortune fit.
+    LAFORTUNE_START = "kernels" "lafortune_start";
+    /// State of the Lafortune fit between passes.
+    LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// Reflection at a paint's surface.
+    MICROFACET = "kernels/common" "microfacet";
+    /// Slopes of a surface that goes on mirrored.
+    MIRROR_SLOPES = "kernels" "mirror_slopes";
+    /// Value noise.
+    NOISE = "kernels/common" "noise";
     /// Normals of a height field.
     NORMALS = "kernels" "normals";
+    /// Eight samples as halves.
+    OCTET = "kernels/common" "octet";
+    /// One layer of paint over a height field.
+    PAINT_RELIEF = "kernels" "paint_relief";
+    /// Drawn thickness of a procedural pattern.
+    PATTERN = "kernels" "pattern";
+    /// Exact quantile per texel and channel.
+    PERCENTILE = "kernels" "percentile";
+    /// Normals and albedo from radiance under known lights.
+    PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
+    /// The material as a plane.
+    PLANE = "shaders" "plane";
+    /// What the source's camera would have recorded.
+    RECONSTRUCT = "kernels" "reconstruct";
+    /// Rays against a height field.
+    RELIEF = "kernels/common" "relief";
+    /// Radiance that leaves a place of the base plane.
+    SHADE = "kernels/common" "shade";
+    /// Slopes of normals.
+    SLOPES = "kernels" "slopes";
+    /// Sums of rows of slopes.
+    SLOPE_SUM = "kernels" "slope_sum";
+    /// The mean specular residual.
+    SPECULAR_RESIDUAL = "kernels" "specular_residual";
+    /// Specular reflectance per channel.
+    SPECULAR_SCALE = "kernels" "specular_scale";
+    /// Tile of sRGB images to linear halves.
+    SRGB_DECODE = "kernels" "srgb_decode";
+    /// The maps and directions that shading reads.
+    SURFACE = "kernels/common" "surface";
+    /// Index of a thread in a folded grid.
+    THREAD = "kernels/common" "thread";
 }

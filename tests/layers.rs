@@ -13,7 +13,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     ("io", &["model", "data"]),
     ("reference", &["model", "data"]),
     ("stage", &["model", "data", "gpu", "wgsl"]),
-    ("render", &["model", "data", "gpu", "wgsl"]),
+    ("render", &["model", "data", "gpu", "stage", "wgsl"]),
     ("pipeline", &["model", "data", "gpu", "io", "stage", "render"]),
     ("view", &["model", "data", "gpu", "io", "stage", "render"]),
     ("cli", &["model", "data", "gpu", "io", "pipeline", "view"]),

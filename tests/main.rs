@@ -3,6 +3,7 @@
 //! Tests that need an adapter fail without one unless `OVERPAINT_GPU=none` is set; tests that need the shared data set
 //! look at `OVERPAINT_DATA`, then `../shared/data`. Those that cannot run are listed as ignored and counted.
 
+mod cli;
 mod io;
 mod law;
 mod layers;
@@ -14,7 +15,8 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = libtest_mimic::Arguments::from_args();
-    let trials = [io::tests(), law::tests(), layers::tests(), parity::tests(), shaders::tests()].into_iter().flatten().collect();
+    let trials =
+        [cli::tests(), io::tests(), law::tests(), layers::tests(), parity::tests(), shaders::tests()].into_iter().flatten().collect();
     let conclusion = libtest_mimic::run(&arguments, trials);
     support::print_figures();
     conclusion.exit_code()

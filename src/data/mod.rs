@@ -5,8 +5,12 @@ mod btf;
 mod direction;
 mod map;
 mod material;
+mod plane_view;
+mod samples;
 
 pub use btf::{Btf, BtfError, Pair, Transfer};
 pub use direction::Direction;
 pub use map::{Map, ShapeError};
 pub use material::{Fit, FitStatus, Material, Provenance, Svbrdf};
+pub use plane_view::PlaneView;
+pub use samples::{OCTET, Samples};

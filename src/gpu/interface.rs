@@ -68,7 +68,9 @@ pub struct Reflection {
 pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
     let invalid = |message: String| GpuError::Shader { name: name.to_owned(), message };
     let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
-    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    // Halves as words, by `unpack2x16float`, are in every WebGPU implementation.
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32);
     validator.validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
 
     let mut resources = Vec::new();

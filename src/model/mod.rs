@@ -1,8 +1,25 @@
 //! Physics and settings as plain types and f64 functions. No wgpu.
 
 mod boundary;
+mod coat;
 pub mod color;
+mod fourier;
+pub mod kubelka_munk;
+mod lafortune;
+pub mod microfacet;
+mod paint;
+pub mod pattern;
+pub mod pigments;
+mod relief;
 mod settings;
 
 pub use boundary::Boundary;
+pub use coat::Coat;
+pub use fourier::Fourier;
+pub use kubelka_munk::Film;
+pub use lafortune::lafortune;
+pub use paint::{Layer, Paint, PaintError};
+pub use pattern::{Capsule, Pattern, PatternError};
+pub use pigments::Pigment;
+pub use relief::Relief;
 pub use settings::{FitSettings, SpecularScale};

@@ -20,15 +20,25 @@ pub struct FitSettings {
     pub boundary: Boundary,
     /// Photometric stereo's slopes are held to at most this (tan of the angle to the plane's normal).
     pub max_slope: f64,
+    /// Under [`Boundary::Mirror`] the mean slope is taken out before integration: it is more often a fault of calibration
+    /// than relief. Under [`Boundary::Periodic`] it is always gone, since a plane that repeats has none.
+    pub detilt: bool,
     /// Lights with cos θ_i below this carry no weight in the reflectance: division by the cosine would blow up their noise.
     pub min_cos_light: f64,
     /// ρ_d is this quantile of the reflectance (thesis: the 10th percentile).
     pub diffuse_quantile: f64,
-    /// Steps of Levenberg-Marquardt at most.
+    /// Steps of Levenberg-Marquardt at most, in each descent.
     pub max_iterations: u32,
+    /// A descent has converged when a step lowers the objective by less than this, relatively.
+    pub tolerance: f64,
+    /// The lobe's exponent is held to [least, greatest]. Below 1 a lobe has a vertical edge where its base meets zero: the fit
+    /// then traces the edges of shadows, the objective has a local minimum at every sample there, and pictures between the
+    /// measured directions show the edge. It costs less than 1 % in relative RMS on the path-traced sets.
+    pub exponents: [f64; 2],
     /// How ρ_s is found.
     pub specular_scale: SpecularScale,
-    /// For [`SpecularScale::MeanRatio`]: samples with a lobe below this fraction of 1 are left out.
+    /// Lobes below this carry no ratio: such samples are left out of the mean, and a texel whose lobes' squares sum to less than
+    /// its square has no specular part.
     pub min_lobe: f64,
 }
 
@@ -38,10 +48,14 @@ impl Default for FitSettings {
             boundary: Boundary::Periodic,
             // 84°: beyond it a photograph from above says nothing of a slope.
             max_slope: 10.0,
+            detilt: true,
             // 80°: keeps all of the usual grids (θ ≤ 75°) and leaves out what cannot be divided by.
             min_cos_light: 0.17,
             diffuse_quantile: 0.1,
-            max_iterations: 60,
+            max_iterations: 40,
+            // Single precision sums thousands of squares to about 1e-6.
+            tolerance: 1e-6,
+            exponents: [1.0, 1000.0],
             specular_scale: SpecularScale::LeastSquares,
             min_lobe: 0.01,
         }

@@ -1,5 +1,40 @@
 //! Host side of the compute stages, one file each.
 
+mod brdf_values;
+mod error;
+mod fft;
+mod frankot_chellappa;
+mod kubelka_munk;
+mod lafortune_fit;
 mod normals;
+mod paint_relief;
+mod pattern;
+mod percentile;
+mod photometric_stereo;
+mod reconstruct;
+mod scalar;
+mod specular_residual;
+mod specular_scale;
+mod srgb_decode;
+mod surface;
+mod tile;
 
+pub use brdf_values::BrdfValues;
+pub use error::StageError;
+pub use fft::Fft;
+pub use frankot_chellappa::FrankotChellappa;
+pub use kubelka_munk::KubelkaMunk;
+pub use lafortune_fit::{FittedLobes, LafortuneFit, STARTS};
 pub use normals::Normals;
+pub use paint_relief::PaintRelief;
+pub use pattern::Pattern;
+pub use percentile::Percentile;
+pub use photometric_stereo::PhotometricStereo;
+pub use reconstruct::Reconstruct;
+pub use specular_residual::SpecularResidual;
+pub use specular_scale::SpecularScale;
+pub use srgb_decode::SrgbDecode;
+pub use surface::{Scene, Surface};
+pub use tile::Tile;
+
+pub(crate) use scalar::{count, single};

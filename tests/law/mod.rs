@@ -1,8 +1,19 @@
 //! What must hold without a twin.
 
-mod color;
-mod normals;
-
-pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [color::tests(), normals::tests()].into_iter().flatten().collect()
+crate::suites! {
+    color,
+    fft,
+    frankot_chellappa,
+    kubelka_munk,
+    lafortune_fit,
+    microfacet,
+    normals,
+    paint_relief,
+    pattern,
+    percentile,
+    photometric_stereo,
+    pigments,
+    plane,
+    reconstruct,
+    specular_scale,
 }

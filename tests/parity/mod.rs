@@ -1,7 +1,20 @@
 //! Each kernel against its twin.
 
-mod normals;
-
-pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [normals::tests()].into_iter().flatten().collect()
+crate::suites! {
+    brdf_values,
+    fft,
+    frankot_chellappa,
+    kubelka_munk,
+    lafortune_fit,
+    microfacet,
+    normals,
+    paint_relief,
+    pattern,
+    percentile,
+    photometric_stereo,
+    plane,
+    reconstruct,
+    specular_residual,
+    specular_scale,
+    srgb_decode,
 }

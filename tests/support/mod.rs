@@ -1,6 +1,9 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
+pub mod probe;
 pub mod random;
+pub mod surface;
+pub mod tile;
 
 use std::{
     path::{Path, PathBuf},
@@ -16,6 +19,17 @@ macro_rules! suite {
     ($($need:ident: $($test:ident),+ $(,)?;)+) => {
         pub fn tests() -> Vec<libtest_mimic::Trial> {
             vec![$($($crate::support::$need(concat!(module_path!(), "::", stringify!($test)), $test)),+),+]
+        }
+    };
+}
+
+/// Declares the modules of a folder and gathers their tests.
+#[macro_export]
+macro_rules! suites {
+    ($($module:ident),+ $(,)?) => {
+        $(pub mod $module;)+
+        pub fn tests() -> Vec<libtest_mimic::Trial> {
+            [$($module::tests()),+].into_iter().flatten().collect()
         }
     };
 }
@@ -98,6 +112,22 @@ pub fn worst_difference(found: impl IntoIterator<Item = f64>, expected: impl Int
             _ => return f64::NAN,
         }
     }
+}
+
+/// Bound on a Fourier transform's worst error along an axis, over the rms of its result.
+///
+/// Errors of a pass of radix r are those of a sum of r rounded terms, about sqrt(r) half units in the last place (6e-8), and
+/// those of passes add up; the worst of many values is a few times the typical one.
+pub fn fft_bound(length: usize) -> f64 {
+    let mut rest = length;
+    let mut typical = 1.0;
+    for factor in 2..=length {
+        while rest % factor == 0 {
+            typical += (factor as f64).sqrt();
+            rest /= factor;
+        }
+    }
+    4.0 * 6e-8 * typical
 }
 
 /// The worst figure of every comparison that ran, beside its bound.

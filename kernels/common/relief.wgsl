@@ -1,0 +1,127 @@
+// Rays against the height field: linear search, then binary refinement (Policarpo, Oliveira, Comba 2005); soft self-shadow
+// (Tatarchuk 2006). Places are in texels: x = column, y = row (downwards), texel centres at whole numbers.
+// Twin: reference::relief, exact crossings with the bilinear patches.
+#import boundary
+#import surface
+
+// A step of the search covers at most this many texels, so that a crossing is missed only where the ray enters and leaves the
+// surface within it.
+const STEP: f32 = 0.5;
+// Bound of the search; steps get longer where it does not suffice (a relief of 16 texels seen at more than 86 degrees).
+const MAX_STEPS: f32 = 512.0;
+// Each halves the bracket: 8 make 1/512 texel of STEP, which a last secant step squares.
+const REFINEMENTS: u32 = 8u;
+// Texel widths that a blocker must stand above the ray to the light. The ray starts on the surface itself, and places rounded
+// to 2^-12 texel (at 4096 texels) on slopes up to 4 err by this much; it shortens no shadow by more than tan(theta)/1000.
+const BIAS: f32 = 0.001;
+// Directions with a cosine below this are taken for the horizon: nothing is seen from there, and no light comes.
+const MIN_COSINE: f32 = 0.001;
+
+// The four texels around a place and how far it lies between them.
+struct Cell {
+    // upper left, upper right, lower left, lower right
+    texels: vec4<u32>,
+    fraction: vec2<f32>,
+}
+
+struct Hit {
+    place: vec2<f32>,
+    height: f32,
+}
+
+struct Visibility {
+    // 0 or 1: whether nothing stands between the hit and the light's centre
+    hard: f32,
+    // 0 to 1: share of a light of some width that is seen
+    soft: f32,
+}
+
+fn cell_at(place: vec2<f32>) -> Cell {
+    let corner = floor(place);
+    let inside = vec2(f32(scene.width), f32(scene.height)) - 1.0;
+    if all(corner >= vec2(0.0)) && all(corner < inside) {
+        // Most places need no boundary, whose remainders cost more than the rest of a step.
+        let texel = u32(corner.y) * scene.width + u32(corner.x);
+        return Cell(vec4(texel, texel + 1u, texel + scene.width, texel + scene.width + 1u), place - corner);
+    }
+    let left = wrap(i32(corner.x), scene.width, scene.boundary);
+    let right = wrap(i32(corner.x) + 1, scene.width, scene.boundary);
+    let upper = wrap(i32(corner.y), scene.height, scene.boundary) * scene.width;
+    let lower = wrap(i32(corner.y) + 1, scene.height, scene.boundary) * scene.width;
+    return Cell(vec4(upper + left, upper + right, lower + left, lower + right), place - corner);
+}
+
+// Bilinear height; exactly the common height of four equal texels.
+fn height_at(place: vec2<f32>) -> f32 {
+    let cell = cell_at(place);
+    let upper = heights[cell.texels.x] + (heights[cell.texels.y] - heights[cell.texels.x]) * cell.fraction.x;
+    let lower = heights[cell.texels.z] + (heights[cell.texels.w] - heights[cell.texels.z]) * cell.fraction.x;
+    return upper + (lower - upper) * cell.fraction.y;
+}
+
+// Texels by which the place on a ray moves as the ray gains one texel width of height. Rows run against y.
+fn run_of(direction: vec3<f32>) -> vec2<f32> {
+    return vec2(direction.x, -direction.y) / direction.z;
+}
+
+fn march_steps(texels: f32) -> u32 {
+    return u32(clamp(ceil(texels / STEP), 1.0, MAX_STEPS));
+}
+
+// Where the view ray through `base` (a place on z = 0) first meets the surface.
+fn first_hit(base: vec2<f32>) -> Hit {
+    if scene.displace == 0u {
+        return Hit(base, height_at(base));
+    }
+    let run = run_of(scene.view.xyz);
+    let depth = scene.highest - scene.lowest;
+    let steps = march_steps(depth * length(run));
+    // The ray is above the surface at height `above`, and on or below it at `below`.
+    var above = scene.highest;
+    var below = scene.highest;
+    for (var step = 1u; step <= steps; step++) {
+        below = scene.highest - depth * (f32(step) / f32(steps));
+        if height_at(base + below * run) >= below {
+            break;
+        }
+        above = below;
+    }
+    for (var step = 0u; step < REFINEMENTS; step++) {
+        let middle = 0.5 * (above + below);
+        if height_at(base + middle * run) >= middle {
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+    // Secant step on the surface's height rather than the ray's: both agree at the crossing, and a flat field is met exactly.
+    let height_above = height_at(base + above * run);
+    let height_below = height_at(base + below * run);
+    let gap_above = max(above - height_above, 0.0);
+    let gap_below = max(height_below - below, 0.0);
+    let share = gap_below / max(gap_above + gap_below, 1e-20);
+    let place = base + (height_below + (height_above - height_below) * share) * run;
+    return Hit(place, height_at(place));
+}
+
+// How much of the light reaches a hit. A blocker that stands e above the ray at path length d covers e/(d tan(width)) of a light
+// of that angular width; the largest cover counts (Tatarchuk 2006: heights above the ray, weighted by nearness).
+fn visibility(hit: Hit) -> Visibility {
+    if scene.light.z < MIN_COSINE {
+        return Visibility(0.0, 0.0);
+    }
+    if scene.shadow == 0u {
+        return Visibility(1.0, 1.0);
+    }
+    let run = run_of(scene.light.xyz);
+    let rise = scene.highest - hit.height;
+    let steps = march_steps(rise * length(run));
+    var cover = 0.0;
+    // Nothing stands above the ray at its last place, the highest.
+    for (var step = 1u; step < steps && cover < 1.0; step++) {
+        let gained = rise * (f32(step) / f32(steps));
+        let excess = height_at(hit.place + gained * run) - (hit.height + gained) - BIAS;
+        cover = max(cover, excess * scene.light.z / (gained * scene.penumbra));
+    }
+    return Visibility(select(1.0, 0.0, cover > 0.0), 1.0 - min(cover, 1.0));
+}

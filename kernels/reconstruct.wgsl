@@ -1,0 +1,20 @@
+// What the source's camera would have recorded: one pixel a texel on the base plane z = 0, seen orthographically from `view`
+// under a directional light, in reflectance units; relief, masking and self-shadow included. One thread a pixel.
+// Policarpo et al. 2005; thesis eq. 3.3, 3.9. Twin: reference::reconstruct.
+#import thread
+#import shade
+
+// [row][column], RGB in reflectance units, w = 1
+@group(0) @binding(7) var<storage, read_write> picture: array<vec4<f32>>;
+
+const SIZE: u32 = 64u;
+
+@compute @workgroup_size(SIZE)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let texel = thread_index(group, groups, local, SIZE);
+    if texel >= scene.width * scene.height {
+        return;
+    }
+    let base = vec2(f32(texel % scene.width), f32(texel / scene.width));
+    picture[texel] = vec4(radiance_at(base), 1.0);
+}

@@ -1,0 +1,97 @@
+//! Values as typed on the command line, turned into what a job needs or refused with what was expected.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+use crate::{
+    data::Direction,
+    model::{Boundary, SpecularScale},
+};
+
+/// Largest side of a picture: the largest texture that WebGPU guarantees.
+const MAX_SIDE: u32 = 8192;
+
+/// `THETA,PHI` in degrees; θ from 0 to below 90.
+pub fn direction(text: &str) -> Result<Direction, String> {
+    let expected = "expected THETA,PHI in degrees, such as 30,270";
+    let (theta, phi) = text.split_once(',').ok_or(expected)?;
+    let angle = |text: &str| number(text.trim()).map_err(|_| expected.to_owned());
+    let (theta, phi) = (angle(theta)?, angle(phi)?);
+    if !(0.0..90.0).contains(&theta) {
+        return Err("THETA must be from 0 to below 90 degrees: the direction must be above the surface".to_owned());
+    }
+    Ok(Direction::from_degrees(theta, phi))
+}
+
+/// `WxH` in pixels.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    text.split_once('x')
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| format!("expected WxH in pixels, such as 512x512, each side from 1 to {MAX_SIDE}"))
+}
+
+/// The path of a picture: `.png` or `.exr`.
+pub fn image(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_lowercase);
+    match extension.as_deref() {
+        Some("png" | "exr") => Ok(path),
+        _ => Err("expected a name that ends in .png (sRGB) or .exr (linear, 32-bit float)".to_owned()),
+    }
+}
+
+/// A finite number.
+pub fn number(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| "expected a finite number".to_owned())
+}
+
+/// A finite number of 0 or more.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|value| *value >= 0.0).ok_or_else(|| "expected a number of 0 or more".to_owned())
+}
+
+/// A finite number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|value| *value > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+/// A number from 0 to 1.
+pub fn fraction(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+/// "LEAST,GREATEST" of an exponent, 0 < least <= greatest.
+pub fn exponents(text: &str) -> Result<[f64; 2], String> {
+    let bounds = text.split_once(',').and_then(|(least, greatest)| Some([number(least).ok()?, number(greatest).ok()?]));
+    bounds
+        .filter(|[least, greatest]| 0.0 < *least && least <= greatest)
+        .ok_or_else(|| "expected two numbers above 0, the smaller first, such as 1,1000".to_owned())
+}
+
+/// A number above 0 and up to 1.
+pub fn roughness(text: &str) -> Result<f64, String> {
+    fraction(text).ok().filter(|value| *value > 0.0).ok_or_else(|| "expected a number above 0, up to 1".to_owned())
+}
+
+/// A number of 1 or more: a refractive index against air.
+pub fn refractive_index(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|value| *value >= 1.0).ok_or_else(|| "expected a number of 1 or more".to_owned())
+}
+
+/// [`Boundary`] by its name.
+pub fn boundary() -> impl TypedValueParser<Value = Boundary> {
+    PossibleValuesParser::new(["periodic", "mirror"]).map(|name| match name.as_str() {
+        "mirror" => Boundary::Mirror,
+        _ => Boundary::Periodic,
+    })
+}
+
+/// [`SpecularScale`] by its name.
+pub fn specular_scale() -> impl TypedValueParser<Value = SpecularScale> {
+    PossibleValuesParser::new(["least-squares", "mean-ratio"]).map(|name| match name.as_str() {
+        "mean-ratio" => SpecularScale::MeanRatio,
+        _ => SpecularScale::LeastSquares,
+    })
+}

@@ -1,0 +1,79 @@
+//! `overpaint fit`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{CliError, arguments, output, say, session::SessionArguments};
+use crate::{
+    io,
+    model::{Boundary, FitSettings, SpecularScale},
+    pipeline,
+};
+
+/// Recover a material from a BTF: height, normals and per-texel reflectance.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  overpaint fit cloth.zip -o cloth.zarr
+  overpaint fit photographs/ -o wall.zarr --boundary mirror --timings wall.json
+
+SOURCE is a tree of images named by their directions (such as `tl030 pl090 tv000 pv000.jpg`), as a folder or in a .zip.")]
+pub struct Fit {
+    /// The BTF: a folder or a .zip of images
+    source: PathBuf,
+    /// The material to write, a Zarr group
+    #[arg(short, long, value_name = "MATERIAL")]
+    output: PathBuf,
+    /// What lies beyond the sample's edge: periodic if it tiles, mirror if it is a cut-out
+    #[arg(long, default_value = "periodic", value_parser = arguments::boundary())]
+    boundary: Boundary,
+    /// With mirror: keep the height's mean tilt
+    #[arg(long)]
+    keep_tilt: bool,
+    /// Steepest slope of photometric stereo, as a tangent
+    #[arg(long, value_name = "TAN", default_value_t = FitSettings::default().max_slope, allow_negative_numbers = true, value_parser = arguments::positive)]
+    max_slope: f64,
+    /// Leave out lights whose cosine to the normal is below this
+    #[arg(long, value_name = "COS", default_value_t = FitSettings::default().min_cos_light, allow_negative_numbers = true, value_parser = arguments::fraction)]
+    min_cos_light: f64,
+    /// Quantile of the reflectance that is taken as diffuse
+    #[arg(long, value_name = "Q", default_value_t = FitSettings::default().diffuse_quantile, allow_negative_numbers = true, value_parser = arguments::fraction)]
+    diffuse_quantile: f64,
+    /// Levenberg-Marquardt steps at most
+    #[arg(long, value_name = "N", default_value_t = FitSettings::default().max_iterations, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    iterations: u32,
+    /// Bounds of the lobe's exponent
+    #[arg(long, value_name = "MIN,MAX", default_value = "1,1000", allow_hyphen_values = true, value_parser = arguments::exponents)]
+    exponents: [f64; 2],
+    /// How the specular albedo follows from the lobe
+    #[arg(long, value_name = "RULE", default_value = "least-squares", value_parser = arguments::specular_scale())]
+    specular_scale: SpecularScale,
+    /// With mean-ratio: leave out samples whose lobe is below this
+    #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, allow_negative_numbers = true, value_parser = arguments::positive)]
+    min_lobe: f64,
+}
+
+impl Fit {
+    pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
+        let settings = FitSettings {
+            boundary: self.boundary,
+            max_slope: self.max_slope,
+            min_cos_light: self.min_cos_light,
+            diffuse_quantile: self.diffuse_quantile,
+            max_iterations: self.iterations,
+            specular_scale: self.specular_scale,
+            min_lobe: self.min_lobe,
+            detilt: !self.keep_tilt,
+            exponents: self.exponents,
+            ..FitSettings::default()
+        };
+        output::check_material(&self.output)?;
+        let source = io::open(&self.source)?;
+        let session = session.open()?;
+        let material = pipeline::fit(&session.gpu, source.as_ref(), &settings, &session.progress)?;
+        io::material::save(&self.output, &material)?;
+        let times = session.finish()?;
+        say(&format!("{times}\nwrote {}", self.output.display()))
+    }
+}

@@ -1,0 +1,84 @@
+//! The command line: arguments as typed become a validated job, one file a subcommand.
+//!
+//! A value out of range is a usage error, found while the arguments are parsed. Whether a result can be written is found
+//! before the work that leads to it.
+
+mod adapters;
+mod arguments;
+mod bar;
+mod demo;
+mod error;
+mod fit;
+mod info;
+mod output;
+mod reconstruct;
+mod render;
+mod session;
+
+use std::{
+    ffi::OsString,
+    io::{ErrorKind, Write},
+};
+
+use clap::{CommandFactory, Parser, Subcommand};
+
+pub use error::CliError;
+use session::SessionArguments;
+
+/// Paints measured materials: a BTF in, a painted material out, on any GPU.
+#[derive(Debug, Parser)]
+#[command(name = "overpaint", version, after_help = EXAMPLES, max_term_width = 100)]
+struct Cli {
+    #[command(flatten)]
+    session: SessionArguments,
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  overpaint demo
+  overpaint fit cloth.zip -o cloth.zarr
+  overpaint info cloth.zarr
+  overpaint render cloth.zarr --paint \"Cadmium Yellow\" --thickness 0.3 -o cloth.png
+
+Directions are THETA,PHI in degrees: THETA from the normal, PHI counter-clockwise from the right.
+Exit codes: 0 done, 1 failed, 2 wrong usage.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Demo(demo::Demo),
+    Fit(fit::Fit),
+    Info(info::Info),
+    Reconstruct(reconstruct::Reconstruct),
+    Render(render::Render),
+    Adapters(adapters::Adapters),
+}
+
+/// Parses the arguments, the program's name first, and runs the job they describe.
+///
+/// # Errors
+/// [`CliError`]; a request for help or the version is one too, as clap has it, with exit code 0.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError> {
+    let Cli { session, command } = Cli::try_parse_from(arguments)?;
+    match command {
+        Command::Demo(demo) => demo.run(&session),
+        Command::Fit(fit) => fit.run(&session),
+        Command::Reconstruct(reconstruct) => reconstruct.run(&session),
+        Command::Render(render) => render.run(&session),
+        Command::Info(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
+            .error(clap::error::ErrorKind::ArgumentConflict, "--adapter and --timings are for commands that compute; leave them out here")
+            .into()),
+        Command::Info(info) => info.run(),
+        Command::Adapters(adapters) => adapters.run(),
+    }
+}
+
+/// Prints to stdout. A reader that has gone away, as in `overpaint info … | head`, is no error.
+fn say(text: &str) -> Result<(), CliError> {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::Stdout { source: error }),
+        _ => Ok(()),
+    }
+}

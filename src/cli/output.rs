@@ -1,0 +1,41 @@
+//! Whether a result can be written, asked before the work that leads to it.
+
+use std::path::Path;
+
+use super::CliError;
+use crate::io;
+
+/// Checks that a file of this path can be made: its folder is there and may be written, and it is no folder itself.
+pub fn check_file(path: &Path) -> Result<(), CliError> {
+    if path.is_dir() {
+        return refuse(path, "it is a folder; name a file");
+    }
+    check_parent(path)
+}
+
+/// Checks that a material of this path can be made: nothing is in its place but an older material.
+pub fn check_material(path: &Path) -> Result<(), CliError> {
+    if path.exists() && io::kind(path) != io::Kind::Material {
+        return refuse(path, "it exists and is no material; remove it or choose another name");
+    }
+    check_parent(path)
+}
+
+fn check_parent(path: &Path) -> Result<(), CliError> {
+    let parent = match path.parent() {
+        None => return refuse(path, "it names no file"),
+        Some(parent) if parent.as_os_str().is_empty() => Path::new("."),
+        Some(parent) => parent,
+    };
+    if !parent.is_dir() {
+        return refuse(path, &format!("there is no folder {}; make it first", parent.display()));
+    }
+    match tempfile::tempfile_in(parent) {
+        Ok(_) => Ok(()),
+        Err(error) => refuse(path, &format!("the folder {} cannot be written ({error}); check its permissions", parent.display())),
+    }
+}
+
+fn refuse(path: &Path, reason: &str) -> Result<(), CliError> {
+    Err(CliError::Output { path: path.to_owned(), reason: reason.to_owned() })
+}

@@ -1,0 +1,9 @@
+//! The Lafortune lobe.
+
+/// (C·(ω_i ω_o))^n for `lobe` = (C_x, C_y, C_z, n) and the directions' `product` by components; 0 where the base is not
+/// positive (Lafortune et al. 1997; thesis eq. 3.3).
+#[must_use]
+pub fn lafortune(lobe: [f64; 4], product: [f64; 3]) -> f64 {
+    let base: f64 = lobe.iter().zip(product).map(|(c, p)| c * p).sum();
+    if base > 0.0 { base.powf(lobe[3]) } else { 0.0 }
+}

@@ -1,0 +1,119 @@
+//! Paints and layers: what is laid on a material.
+
+use super::{Film, pigments::Pigment};
+
+/// A paint by its Kubelka-Munk coefficients per unit of thickness, in R, G, B.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Paint {
+    /// Name shown to the user.
+    pub name: String,
+    /// Absorption K.
+    pub k: [f64; 3],
+    /// Scattering S.
+    pub s: [f64; 3],
+}
+
+impl From<&Pigment> for Paint {
+    fn from(pigment: &Pigment) -> Self {
+        Self { name: pigment.full_name(), k: pigment.k, s: pigment.s }
+    }
+}
+
+/// One layer of paint. A pattern draws its thickness in [0, 1]; two scales, independent of each other, give that drawing
+/// its optical and its geometric size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// The paint.
+    pub paint: Paint,
+    /// Kubelka-Munk thickness d where the drawn thickness is 1, in the unit of the paint's coefficients: d = thickness·drawn.
+    pub thickness: f64,
+    /// Height in texel widths where the drawn thickness is 1: the surface rises by relief·drawn.
+    pub relief: f64,
+    /// Refractive index n of the binder.
+    pub refractive_index: f64,
+    /// Width α of the surface's GGX lobe.
+    pub roughness: f64,
+}
+
+/// A paint or layer that cannot be.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PaintError {
+    /// A coefficient is negative, not finite, or too large.
+    #[error("{coefficient} of paint \"{paint}\" in {channel} is {found}; it must be at least 0 and at most {MAX_COEFFICIENT:e}")]
+    Coefficient {
+        /// The paint's name.
+        paint: String,
+        /// "K" or "S".
+        coefficient: &'static str,
+        /// "red", "green" or "blue".
+        channel: &'static str,
+        /// The value.
+        found: f64,
+    },
+    /// A setting of a layer lies outside its range.
+    #[error("{setting} of the layer of \"{paint}\" is {found}; it must be at least {low} and at most {high:e}")]
+    Setting {
+        /// The paint's name.
+        paint: String,
+        /// Which setting.
+        setting: &'static str,
+        /// The value.
+        found: f64,
+        /// Smallest value allowed.
+        low: f64,
+        /// Largest value allowed.
+        high: f64,
+    },
+}
+
+/// Largest K, S, thickness and relief: far beyond opaque, and K·d stays within f32.
+const MAX_COEFFICIENT: f64 = 1e6;
+
+impl Layer {
+    /// Drawn thickness from which a layer counts as closed; below it, the ground's own surface shows between the paint.
+    pub const CLOSED: f64 = 0.05;
+
+    /// A layer with the binder of common paints: refractive index 1.5, roughness 0.3.
+    #[must_use]
+    pub fn new(paint: Paint, thickness: f64, relief: f64) -> Self {
+        Self { paint, thickness, relief, refractive_index: 1.5, roughness: 0.3 }
+    }
+
+    /// The layer itself, if every number is in its range.
+    ///
+    /// # Errors
+    /// [`PaintError`] for the first that is not.
+    pub fn checked(self) -> Result<Self, PaintError> {
+        for (coefficient, values) in [("K", self.paint.k), ("S", self.paint.s)] {
+            for (channel, found) in ["red", "green", "blue"].into_iter().zip(values) {
+                if !(0.0..=MAX_COEFFICIENT).contains(&found) {
+                    return Err(PaintError::Coefficient { paint: self.paint.name, coefficient, channel, found });
+                }
+            }
+        }
+        let settings = [
+            ("thickness", self.thickness, 0.0, MAX_COEFFICIENT),
+            ("relief", self.relief, 0.0, MAX_COEFFICIENT),
+            ("refractive index", self.refractive_index, 1.0, 4.0),
+            // A narrower lobe than 0.01 falls between the texels of any picture.
+            ("roughness", self.roughness, 0.01, 1.0),
+        ];
+        match settings.into_iter().find(|(_, found, low, high)| !(low..=high).contains(&found)) {
+            Some((setting, found, low, high)) => Err(PaintError::Setting { paint: self.paint.name, setting, found, low, high }),
+            None => Ok(self),
+        }
+    }
+
+    /// The film in R, G, B where the drawn thickness is `drawn`.
+    #[must_use]
+    pub fn films(&self, drawn: f64) -> [Film; 3] {
+        let d = self.thickness * drawn;
+        std::array::from_fn(|channel| Film::new(self.paint.s[channel] * d, self.paint.k[channel] * d))
+    }
+
+    /// Texel widths by which the surface rises where the drawn thickness is `drawn`.
+    #[must_use]
+    pub fn rise(&self, drawn: f64) -> f64 {
+        self.relief * drawn
+    }
+}

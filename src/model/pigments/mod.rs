@@ -1,0 +1,164 @@
+//! The library of paints: Kubelka-Munk coefficients at three wavelengths, with where they come from.
+//!
+//! The two sets have units of their own: thickness 1 of one is not the film that thickness 1 of the other is. The oils are
+//! *substitutes* for the coefficients of Baxter, Wendt and Lin 2004, which are not published: measured two-constant data
+//! of artists' paints at the same wavelengths.
+
+mod table;
+
+use table::{OILS, WATERCOLOURS};
+
+/// A group of pigments with one unit of thickness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PigmentSet {
+    /// Twelve watercolours (Curtis et al. 1997).
+    Watercolour,
+    /// Eight substitutes for oil paints.
+    Oil,
+}
+
+impl PigmentSet {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Watercolour, Self::Oil];
+
+    /// Name, as it stands before the slash in a pigment's full name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Watercolour => "watercolour",
+            Self::Oil => "oil",
+        }
+    }
+
+    /// What thickness 1 means.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Watercolour => "thickness 1 is the swatch of Curtis et al. 1997",
+            Self::Oil => "thickness 1 is the film in which titanium white scatters S = 1",
+        }
+    }
+
+    /// The pigments of this set.
+    #[must_use]
+    pub fn pigments(self) -> &'static [Pigment] {
+        match self {
+            Self::Watercolour => WATERCOLOURS,
+            Self::Oil => OILS,
+        }
+    }
+}
+
+/// How well a pigment's coefficients are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grade {
+    /// As printed by the authors of the set.
+    Published,
+    /// A: a substitute; the pigment itself, K and S measured, in another binder.
+    Measured,
+    /// B: a substitute; a measured stand-in or mixture whose opaque colour matches the paint of that name.
+    StandIn,
+    /// C: a substitute; derived, S to an order of magnitude.
+    Derived,
+}
+
+/// A pigment of the library.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pigment {
+    /// Name within its set.
+    pub name: &'static str,
+    /// The set it belongs to, which fixes the unit.
+    pub set: PigmentSet,
+    /// Absorption K per unit thickness in R, G, B.
+    pub k: [f64; 3],
+    /// Scattering S per unit thickness in R, G, B.
+    pub s: [f64; 3],
+    /// How well the coefficients are known.
+    pub grade: Grade,
+    /// Where they come from.
+    pub source: &'static str,
+}
+
+impl Pigment {
+    /// Name that no other pigment has: `oil/cadmium yellow`.
+    #[must_use]
+    pub fn full_name(&self) -> String {
+        format!("{}/{}", self.set.name(), self.name.to_lowercase())
+    }
+}
+
+/// A name that stands for no pigment, or for several.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PigmentError {
+    /// No pigment is called that.
+    #[error("no paint is called \"{name}\". The nearest names are {near}")]
+    Unknown {
+        /// The name asked for.
+        name: String,
+        /// The nearest full names, quoted.
+        near: String,
+    },
+    /// Both sets have a pigment of that name.
+    #[error("\"{name}\" stands for several paints. Choose one of {choices}")]
+    Ambiguous {
+        /// The name asked for.
+        name: String,
+        /// The full names, quoted.
+        choices: String,
+    },
+}
+
+/// Every pigment: watercolours, then oils.
+pub fn all() -> impl Iterator<Item = &'static Pigment> {
+    PigmentSet::ALL.into_iter().flat_map(PigmentSet::pigments)
+}
+
+/// The pigment called `name`, with its set before a slash or without; case, spaces and punctuation do not matter.
+///
+/// # Errors
+/// [`PigmentError`] if there is none or more than one.
+pub fn find(name: &str) -> Result<&'static Pigment, PigmentError> {
+    let wanted = plain(name);
+    let matching: Vec<_> = match name.split_once('/') {
+        Some(_) => all().filter(|pigment| plain(&pigment.full_name()) == wanted).collect(),
+        None => all().filter(|pigment| plain(pigment.name) == wanted).collect(),
+    };
+    match matching[..] {
+        [pigment] => Ok(pigment),
+        [] => Err(PigmentError::Unknown { name: name.to_owned(), near: quoted(&nearest(&wanted)) }),
+        _ => Err(PigmentError::Ambiguous { name: name.to_owned(), choices: quoted(&matching) }),
+    }
+}
+
+/// Letters and digits in lower case.
+fn plain(name: &str) -> String {
+    name.chars().filter(|character| character.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+fn quoted(pigments: &[&Pigment]) -> String {
+    pigments.iter().map(|pigment| format!("\"{}\"", pigment.full_name())).collect::<Vec<_>>().join(", ")
+}
+
+/// The four pigments whose name, with or without its set, takes the fewest edits to become `wanted`.
+fn nearest(wanted: &str) -> Vec<&'static Pigment> {
+    let mut pigments: Vec<_> = all().collect();
+    pigments.sort_by_key(|pigment| edits(wanted, &plain(pigment.name)).min(edits(wanted, &plain(&pigment.full_name()))));
+    pigments.truncate(4);
+    pigments
+}
+
+/// Letters to insert, delete or replace to turn one word into the other (Levenshtein 1966).
+fn edits(from: &str, to: &str) -> usize {
+    let to: Vec<_> = to.chars().collect();
+    let mut row: Vec<_> = (0..=to.len()).collect();
+    for letter in from.chars() {
+        let mut diagonal = row[0];
+        row[0] += 1;
+        for column in 1..row.len() {
+            let replaced = diagonal + usize::from(to[column - 1] != letter);
+            diagonal = row[column];
+            row[column] = replaced.min(diagonal + 1).min(row[column - 1] + 1);
+        }
+    }
+    row[to.len()]
+}

@@ -1,0 +1,243 @@
+//! The main job on the sample inside the program: fit, compare with the measurement, paint, and write a report.
+
+use std::path::Path;
+
+use super::{
+    Painting, PipelineError, Progress, Studio, fit,
+    report::{Cell, Figure, Report, Row},
+};
+use crate::{
+    data::{Btf, Direction, Map, Material, PlaneView, Transfer},
+    gpu::Gpu,
+    io::{self, Source},
+    model::{FitSettings, Layer, Paint, Pattern, color::linear_from_srgb, pigments},
+};
+
+/// Name of the report in the demo's folder.
+pub const REPORT: &str = "report.html";
+/// Name of the material in the demo's folder.
+const MATERIAL: &str = "weave64.zarr";
+
+/// A path-traced woven cloth: 64 x 64 texels under 51 views and 51 lights.
+const SAMPLE: &[u8] = include_bytes!("../sample/weave64_51x51.zip");
+
+/// θ of the lights from the right, in degrees.
+const LIGHTS: [f64; 5] = [0.0, 17.0, 32.0, 50.0, 65.0];
+/// (θ, φ) in degrees: straight from above, and obliquely from the front.
+const VIEWS: [(f64, f64); 2] = [(0.0, 0.0), (50.0, 257.0)];
+
+/// Paints and the thicknesses that each is shown at.
+const PAINTS: [(&str, [f64; 2]); 2] = [("watercolour/cadmium yellow", [0.3, 1.5]), ("watercolour/cerulean blue", [0.3, 1.5])];
+/// Where the paint lies.
+const PATTERN: Pattern = Pattern::Splash { seed: 7 };
+/// Height in texel widths of a coat of thickness 1.
+const RELIEF: f64 = 1.0;
+/// (θ, φ) in degrees of the painted pictures' view and light, and their size in pixels.
+const PAINTED_VIEW: (f64, f64) = (40.0, 270.0);
+const PAINTED_LIGHT: (f64, f64) = (50.0, 135.0);
+const PAINTED_SIZE: [u32; 2] = [512, 512];
+
+/// Runs the demo; writes the report, its pictures and the material into `folder`, which must exist.
+///
+/// # Errors
+/// [`PipelineError`] if a stage fails or a file cannot be written.
+pub fn demo(gpu: &Gpu, folder: &Path, progress: &Progress) -> Result<(), PipelineError> {
+    let source = io::open_zip_bytes("weave64", SAMPLE)?;
+    let material = fit(gpu, source.as_ref(), &FitSettings::default(), progress)?;
+    io::material::save(&folder.join(MATERIAL), &material)?;
+
+    let job = Job { source: source.as_ref(), material: &material, studio: Studio::new(gpu)?, progress };
+    progress.expect(4);
+    let mut report = Report::new(folder, "A woven cloth, measured and painted", &introduction(source.btf(), gpu));
+    for figure in [Job::recovered, Job::above, Job::oblique, Job::painted] {
+        let figure = figure(&job)?;
+        let _stage = progress.stage("report", 0, 0);
+        report.figure(&figure)?;
+        progress.advance(1);
+    }
+    report.finish(REPORT, &progress.report())?;
+    Ok(())
+}
+
+fn introduction(btf: &Btf, gpu: &Gpu) -> String {
+    let [width, height] = btf.size();
+    format!(
+        "{} by {} texels under {} views and {} lights, path-traced. overpaint {} recovered its height, normals and per-texel \
+         reflectance on {}, and painted it. Directions are θ from the normal and φ counter-clockwise from the right, in degrees.",
+        width,
+        height,
+        btf.views().len(),
+        btf.lights().len(),
+        env!("CARGO_PKG_VERSION"),
+        gpu.adapter().name
+    )
+}
+
+/// What the figures are made from.
+struct Job<'a> {
+    source: &'a dyn Source,
+    material: &'a Material,
+    studio: Studio<'a>,
+    progress: &'a Progress,
+}
+
+impl Job<'_> {
+    /// Top view, normals and height (thesis fig. 3.2).
+    fn recovered(&self) -> Result<Figure, PipelineError> {
+        let (view, light) = (nearest(self.source.btf().views(), VIEWS[0]), nearest(self.source.btf().lights(), (0.0, 0.0)));
+        let (lowest, highest) = range(&self.material.height);
+        let cells = vec![
+            Cell { picture: self.original(view, light)?, note: String::new() },
+            Cell { picture: self.material.normal.map(|normal| coded(normal.map(|value| 0.5 + 0.5 * value))), note: String::new() },
+            Cell {
+                picture: self.material.height.map(|height| coded([(height - lowest) / (highest - lowest).max(f32::MIN_POSITIVE); 3])),
+                note: String::new(),
+            },
+        ];
+        Ok(Figure {
+            stem: "recovered",
+            title: "What was measured and what was recovered",
+            caption: format!(
+                "Left, the photograph from the view {} under the light {}. Middle, normals, (x, y, z) from −1 … 1 as red, green and blue. \
+                 Right, height, from {lowest:.2} texel widths (black) to {highest:.2} (white).",
+                self.source.btf().views()[view],
+                self.source.btf().lights()[light]
+            ),
+            columns: ["top view", "normals", "height"].map(String::from).to_vec(),
+            rows: vec![Row { label: "", cells }],
+        })
+    }
+
+    /// Thesis fig. 4.1.
+    fn above(&self) -> Result<Figure, PipelineError> {
+        self.comparison("above", "Original and reconstruction, seen from above", VIEWS[0])
+    }
+
+    /// Thesis fig. 4.2.
+    fn oblique(&self) -> Result<Figure, PipelineError> {
+        self.comparison("oblique", "Original and reconstruction, seen obliquely", VIEWS[1])
+    }
+
+    /// Original, positive and negative difference and reconstruction, lit from the right at several elevations.
+    fn comparison(&self, stem: &'static str, title: &'static str, view: (f64, f64)) -> Result<Figure, PipelineError> {
+        let btf = self.source.btf();
+        let view = nearest(btf.views(), view);
+        let mut rows =
+            ["original", "positive difference", "negative difference", "reconstruction"].map(|label| Row { label, cells: Vec::new() });
+        let mut columns = Vec::new();
+        for theta in LIGHTS {
+            let light = nearest(btf.lights(), (theta, 0.0));
+            let original = self.original(view, light)?;
+            let found = self.studio.reconstruct(self.material, btf.views()[view], btf.lights()[light], self.progress)?;
+            let error = relative_rms(&original, &found);
+            let pictures = [difference(&original, &found), difference(&found, &original), found];
+            for (row, picture) in rows.iter_mut().zip([original].into_iter().chain(pictures)) {
+                row.cells.push(Cell { picture, note: String::new() });
+            }
+            if let Some(cell) = rows[3].cells.last_mut() {
+                cell.note = format!("relative RMS {error:.3}");
+            }
+            columns.push(format!("light {}", btf.lights()[light]));
+        }
+        Ok(Figure {
+            stem,
+            title,
+            caption: format!(
+                "View {}; the light stands at the right. Positive difference is what the original has more than the reconstruction, negative \
+                 difference what it has less. The relative RMS is that of the difference over that of the original, in linear light.",
+                btf.views()[view]
+            ),
+            columns,
+            rows: rows.into(),
+        })
+    }
+
+    /// The bare material and two paints, each at two thicknesses.
+    fn painted(&self) -> Result<Figure, PipelineError> {
+        let [view, light] = [PAINTED_VIEW, PAINTED_LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
+        let shot = PlaneView::new(view, light, PAINTED_SIZE);
+        let render = |painting: Option<&Painting>| self.studio.render(self.material, painting, &shot, self.progress);
+        let bare = render(None)?;
+        let mut rows = Vec::new();
+        for (name, thicknesses) in PAINTS {
+            let mut cells = vec![Cell { picture: bare.clone(), note: String::new() }];
+            for thickness in thicknesses {
+                // The library holds the paints named above.
+                let Ok(pigment) = pigments::find(name) else { continue };
+                let layer = Layer::new(Paint::from(pigment), thickness, RELIEF * thickness);
+                cells.push(Cell { picture: render(Some(&Painting { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
+            }
+            rows.push(Row { label: name, cells });
+        }
+        Ok(Figure {
+            stem: "painted",
+            title: "Bare and painted",
+            caption: format!(
+                "View {view}, light {light}. The paint is laid on by Kubelka and Munk's theory, raises the surface and has a highlight of its own."
+            ),
+            columns: ["bare", "thin coat", "thick coat"].map(String::from).to_vec(),
+            rows,
+        })
+    }
+
+    /// The sample of a view and a light, by their indices, in linear light.
+    fn original(&self, view: usize, light: usize) -> Result<Map<[f32; 4]>, PipelineError> {
+        let btf = self.source.btf();
+        let [width, height] = btf.size();
+        let Some(sample) = btf.pairs().iter().position(|pair| (pair.view, pair.light) == (view, light)) else {
+            // The sample inside the program has every pair.
+            return Ok(Map::from_fn(width, height, |_, _| [0.0; 4]));
+        };
+        let _stage = self.progress.stage("decode", btf.texels(), 1);
+        let texels = self.source.decode(sample)?;
+        let linear = |code: u8| match btf.transfer() {
+            Transfer::Srgb => decoded(f32::from(code) / 255.0),
+            Transfer::Linear => f32::from(code) / 255.0,
+        };
+        Ok(Map::from_fn(width, height, |column, row| {
+            let [red, green, blue, _] = texels[row * width + column];
+            [linear(red), linear(green), linear(blue), 1.0]
+        }))
+    }
+}
+
+/// Index of the direction nearest (θ, φ) in degrees.
+fn nearest(directions: &[Direction], (theta, phi): (f64, f64)) -> usize {
+    let wanted = Direction::from_degrees(theta, phi).vector();
+    let cosine = |index: &usize| directions[*index].vector().dot(wanted);
+    (0..directions.len()).max_by(|a, b| cosine(a).total_cmp(&cosine(b))).unwrap_or(0)
+}
+
+/// Smallest and largest height.
+fn range(map: &Map<f32>) -> (f32, f32) {
+    map.values().iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)))
+}
+
+/// The linear light that a PNG stores as the code `value`, from 0 to 1: for pictures that show numbers, not light.
+fn coded(value: [f32; 3]) -> [f32; 4] {
+    let [red, green, blue] = value.map(decoded);
+    [red, green, blue, 1.0]
+}
+
+/// The linear light of an sRGB value, both from 0 to 1.
+#[expect(clippy::cast_possible_truncation, reason = "a picture holds f32")]
+fn decoded(srgb: f32) -> f32 {
+    linear_from_srgb(f64::from(srgb)) as f32
+}
+
+/// max(a − b, 0).
+fn difference(a: &Map<[f32; 4]>, b: &Map<[f32; 4]>) -> Map<[f32; 4]> {
+    Map::from_fn(a.width(), a.height(), |column, row| {
+        let (a, b) = (a[(column, row)], b[(column, row)]);
+        [(a[0] - b[0]).max(0.0), (a[1] - b[1]).max(0.0), (a[2] - b[2]).max(0.0), 1.0]
+    })
+}
+
+/// √(Σ(original − found)² / Σ original²) over red, green and blue.
+fn relative_rms(original: &Map<[f32; 4]>, found: &Map<[f32; 4]>) -> f64 {
+    let channels =
+        |map: &Map<[f32; 4]>| -> Vec<f64> { map.values().iter().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).map(f64::from).collect() };
+    let (original, found) = (channels(original), channels(found));
+    let error: f64 = original.iter().zip(&found).map(|(original, found)| (original - found).powi(2)).sum();
+    (error / original.iter().map(|value| value * value).sum::<f64>()).sqrt()
+}

@@ -1,0 +1,41 @@
+//! Errors of a pipeline.
+
+use crate::{data::ShapeError, gpu::GpuError, io::IoError, stage::StageError};
+
+/// What can go wrong while stages are chained.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PipelineError {
+    /// An adapter's error.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A stage refused its input.
+    #[error(transparent)]
+    Stage(#[from] StageError),
+    /// The source could not be read.
+    #[error(transparent)]
+    Source(#[from] IoError),
+    /// A map came back in another shape than it was asked for: a bug of this program.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// A file of a report could not be written.
+    #[error("{}: cannot be written. Check that the folder is writable and the disk has room", path.display())]
+    Write {
+        /// The file.
+        path: std::path::PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// Every light is too low for the reflectance to be computed.
+    #[error(
+        "all {samples} samples of \"{source_name}\" have lights lower than cos θ = {min_cos_light}, so that no reflectance can be computed. Lower min_cos_light"
+    )]
+    OnlyGrazingLights {
+        /// Name of the source.
+        source_name: String,
+        /// Its samples.
+        samples: usize,
+        /// The bound that all of them miss.
+        min_cos_light: f64,
+    },
+}

@@ -1,0 +1,62 @@
+//! Height and normals of a source: photometric stereo of the zenith view, then integration (thesis section 3.1).
+
+use super::{
+    PipelineError, Progress,
+    tiles::{for_each_tile, run},
+};
+use crate::{
+    data::{Direction, Map},
+    gpu::Gpu,
+    io::Source,
+    model::FitSettings,
+    stage,
+};
+
+/// What photometric stereo and integration give.
+pub(super) struct Geometry {
+    /// Height in texel widths, mean zero.
+    pub height: Map<f32>,
+    /// Normals of that height.
+    pub normal: Map<[f32; 3]>,
+    /// Photometric stereo's own normals.
+    pub normal_measured: Map<[f32; 3]>,
+    /// Photometric stereo's albedo.
+    pub albedo: Map<f32>,
+}
+
+pub(super) fn recover(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Progress) -> Result<Geometry, PipelineError> {
+    let btf = source.btf();
+    let samples = btf.zenith_samples();
+    let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
+    let decode = stage::SrgbDecode::new(gpu)?;
+    let stereo = stage::PhotometricStereo::new(gpu)?;
+    let mut measured: Vec<[f32; 4]> = Vec::with_capacity(btf.texels());
+    for_each_tile(gpu, source, &samples, progress, |texels, codes| {
+        let size = [texels.len(), samples.len()];
+        let tile = run(gpu, progress, "srgb_decode", size, |recorder| {
+            let codes = gpu.upload("codes", codes)?;
+            decode.record(recorder, &codes, samples.len(), texels.len())
+        })?;
+        let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights))?;
+        measured.extend(normals.read(gpu)?);
+        Ok(())
+    })?;
+
+    let [width, height] = btf.size();
+    let size = [stage::count(width), stage::count(height)];
+    let normals = gpu.upload("measured normals", &measured)?;
+    let integrate = stage::FrankotChellappa::new(gpu)?;
+    let heights =
+        run(gpu, progress, "frankot_chellappa", [btf.texels(), 1], |recorder| integrate.record(recorder, &normals, size, settings))?;
+    let from_height = stage::Normals::new(gpu)?;
+    let normals =
+        run(gpu, progress, "normals", [btf.texels(), 1], |recorder| from_height.record(recorder, &heights, size, settings.boundary))?;
+
+    let measured = Map::new(width, height, measured)?;
+    Ok(Geometry {
+        height: Map::new(width, height, heights.read(gpu)?)?,
+        normal: Map::new(width, height, normals.read(gpu)?)?.map(|&[x, y, z, _]| [x, y, z]),
+        normal_measured: measured.map(|&[x, y, z, _]| [x, y, z]),
+        albedo: measured.map(|&[_, _, _, albedo]| albedo),
+    })
+}

@@ -1,0 +1,17 @@
+//! Chains stages: owns buffers, cuts a source into tiles, submits, and reports progress.
+
+mod demo;
+mod error;
+mod fit;
+mod geometry;
+mod progress;
+mod reflectance;
+mod report;
+mod studio;
+mod tiles;
+
+pub use demo::{REPORT, demo};
+pub use error::PipelineError;
+pub use fit::fit;
+pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
+pub use studio::{Painting, Studio};

@@ -1,0 +1,125 @@
+//! Pictures of a material, bare or painted.
+
+use super::{PipelineError, Progress, tiles::run};
+use crate::{
+    data::{Direction, Map, Material, PlaneView},
+    gpu::{Buffer, Gpu},
+    model::{Coat, Layer, Pattern, Relief},
+    render::Plane,
+    stage::{self, Surface},
+};
+
+/// A layer of paint and where it is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Painting {
+    /// The paint, its thickness and its relief.
+    pub layer: Layer,
+    /// Where and how thick it is drawn.
+    pub pattern: Pattern,
+}
+
+/// The stages that make pictures, on one device.
+#[derive(Debug)]
+pub struct Studio<'g> {
+    gpu: &'g Gpu,
+    pattern: stage::Pattern,
+    kubelka_munk: stage::KubelkaMunk,
+    paint_relief: stage::PaintRelief,
+    normals: stage::Normals,
+    reconstruct: stage::Reconstruct,
+    plane: Plane,
+}
+
+impl<'g> Studio<'g> {
+    /// Builds the kernels and render passes.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if the driver refuses one.
+    pub fn new(gpu: &'g Gpu) -> Result<Self, PipelineError> {
+        Ok(Self {
+            gpu,
+            pattern: stage::Pattern::new(gpu)?,
+            kubelka_munk: stage::KubelkaMunk::new(gpu)?,
+            paint_relief: stage::PaintRelief::new(gpu)?,
+            normals: stage::Normals::new(gpu)?,
+            reconstruct: stage::Reconstruct::new(gpu)?,
+            plane: Plane::new(gpu)?,
+        })
+    }
+
+    /// The image that the source would have recorded from `view` under `light`: one pixel a texel on the base plane, linear
+    /// RGBA in reflectance units, `[row][column]`.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if the maps do not fit the adapter.
+    pub fn reconstruct(
+        &self, material: &Material, view: Direction, light: Direction, progress: &Progress,
+    ) -> Result<Map<[f32; 4]>, PipelineError> {
+        let surface = self.surface(material, None, progress)?;
+        let [width, height] = material.size();
+        let picture = run(self.gpu, progress, "reconstruct", [width * height, 1], |recorder| {
+            self.reconstruct.record(recorder, &surface, view, light, Relief::default())
+        })?;
+        Ok(Map::new(width, height, picture.read(self.gpu)?)?)
+    }
+
+    /// The material as a plane of `size` pixels, painted if asked: linear RGBA, premultiplied, `[row][column]`.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if the maps or the picture do not fit the adapter.
+    pub fn render(
+        &self, material: &Material, painting: Option<&Painting>, shot: &PlaneView, progress: &Progress,
+    ) -> Result<Map<[f32; 4]>, PipelineError> {
+        let surface = self.surface(material, painting, progress)?;
+        let [width, height] = shot.size.map(|pixels| pixels as usize);
+        let (target, padded) = run(self.gpu, progress, "plane", [width * height, 1], |recorder| {
+            let target = self.plane.draw(recorder, &surface, shot, Relief::default())?;
+            let padded = target.record_copy(recorder)?;
+            Ok::<_, PipelineError>((target, padded))
+        })?;
+        Ok(Map::new(width, height, target.unpad(&padded.read(self.gpu)?))?)
+    }
+
+    /// The maps that pictures are made from, painted if asked.
+    fn surface(&self, material: &Material, painting: Option<&Painting>, progress: &Progress) -> Result<Surface, PipelineError> {
+        let gpu = self.gpu;
+        let [columns, rows] = material.size();
+        let (size, texels) = ([stage::count(columns), stage::count(rows)], columns * rows);
+        let boundary = material.provenance.settings.boundary;
+        let diffuse = upload_rgb(gpu, "diffuse", &material.svbrdf.diffuse)?;
+        let bare = gpu.upload("height", material.height.values())?;
+        let (heights, painted, coat, rise) = match painting {
+            None => (bare, gpu.zeros("painted", texels)?, Coat::default(), 0.0),
+            Some(Painting { layer, pattern }) => {
+                let drawn = run(gpu, progress, "pattern", [texels, 1], |recorder| self.pattern.record(recorder, *pattern, size))?;
+                let painted = run(gpu, progress, "kubelka_munk", [texels, 1], |recorder| {
+                    self.kubelka_munk.record(recorder, &diffuse, &drawn, layer)
+                })?;
+                let heights =
+                    run(gpu, progress, "paint_relief", [texels, 1], |recorder| self.paint_relief.record(recorder, &bare, &drawn, layer))?;
+                let coat = Coat { refractive_index: layer.refractive_index, roughness: layer.roughness };
+                (heights, painted, coat, layer.rise(1.0))
+            }
+        };
+        let normals = run(gpu, progress, "normals", [texels, 1], |recorder| self.normals.record(recorder, &heights, size, boundary))?;
+        let [lowest, highest] = material.height.values().iter().fold([0.0_f32; 2], |[low, high], &z| [low.min(z), high.max(z)]);
+        Ok(Surface {
+            size,
+            heights,
+            normals,
+            diffuse,
+            specular: upload_rgb(gpu, "specular", &material.svbrdf.specular)?,
+            lobe: gpu.upload("lobe", material.svbrdf.lobe.values())?,
+            painted,
+            height_range: [lowest, highest + stage::single(rise)],
+            boundary,
+            coat,
+        })
+    }
+}
+
+/// A colour map with a fourth component of 0.
+fn upload_rgb(gpu: &Gpu, label: &str, map: &Map<[f32; 3]>) -> Result<Buffer<[f32; 4]>, PipelineError> {
+    let texels: Vec<[f32; 4]> = map.values().iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect();
+    Ok(gpu.upload(label, &texels)?)
+}

@@ -1,0 +1,10 @@
+//! Twin of `brdf_values`.
+
+use crate::data::Direction;
+
+/// π·f_r of `radiance` in reflectance units under `light` (thesis eq. 3.5): the cosine is that of the angle, where the kernel
+/// multiplies by a reciprocal.
+#[must_use]
+pub fn brdf_values(radiance: f64, light: Direction) -> f64 {
+    radiance / light.theta.cos()
+}

@@ -1,0 +1,195 @@
+//! Levenberg-Marquardt fit of one Lafortune lobe a texel (Lafortune et al. 1997; thesis section 3.2.2, step 5). Kernels
+//! `lafortune_start`, `lafortune_fit` (one step) and `lafortune_result`, twin
+//! [`reference::lafortune_fit`](crate::reference::lafortune_fit).
+//!
+//! The thesis fits (C_x, C_y, C_z, n) as they stand. In these the amplitude |C|^n and the exponent are nearly dependent and
+//! single precision stalls in the valley between them; as A·(k·p)^n with a unit vector k the same family of lobes has its
+//! linear part apart, and the rest is well conditioned. The result is given as C and n again.
+//!
+//! The objective has more than one minimum. Descents from a retro-reflecting and from a diffuse-like direction run on every
+//! [`COARSE`]th octet first; the better one goes on with all samples. A descent is a fixed number of passes, and a texel
+//! that has finished returns at once.
+
+use half::f16;
+
+use super::{
+    scalar::{count, single},
+    tile::upload_products,
+};
+use crate::{
+    data::{OCTET, Samples},
+    gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
+    gpu_struct,
+    model::FitSettings,
+    wgsl,
+};
+
+gpu_struct! {
+    struct FitState {
+        point: [f32; 4],
+        candidate: [f32; 4],
+        diagonal: [f32; 4],
+        mixed: [f32; 4],
+        gradient: [f32; 4],
+        champion: [f32; 4],
+        mixed_nu: [f32; 2],
+        objective: f32,
+        amplitude: f32,
+        damping: f32,
+        growth: f32,
+        foreseen: f32,
+        champion_objective: f32,
+        energy: f32,
+        status: u32,
+        iterations: u32,
+        champion_amplitude: f32,
+    }
+}
+gpu_struct! {
+    struct StartParams { start: [f32; 4], texels: u32, first: u32, _pad0: u32, _pad1: u32 }
+}
+gpu_struct! {
+    struct StepParams {
+        texels: u32, octets: u32, stride: u32, tolerance: f32, min_exponent: f32, max_exponent: f32, _pad0: u32, _pad1: u32,
+    }
+}
+gpu_struct! {
+    struct ResultParams { texels: u32, samples: u32 }
+}
+
+/// Starting points (k, n): towards the mirrored light, as a highlight wants, and along the normal, as a diffuse-like residue wants.
+pub const STARTS: [[f32; 4]; 2] = [[-0.577_350_26, -0.577_350_26, 0.577_350_26, 1.0], [0.0, 0.0, 1.0, 1.0]];
+
+/// The first descents look at every octet of this many.
+const COARSE: usize = 8;
+
+/// Below this many samples in the coarse subset all are used from the start: five unknowns want some hundreds.
+const MIN_COARSE_SAMPLES: usize = 256;
+
+/// What the fit of a tile gives.
+#[derive(Debug)]
+pub struct FittedLobes {
+    /// `[texel]` (C_x, C_y, C_z, n).
+    pub lobes: Buffer<[f32; 4]>,
+    /// `[texel]` mean squared residual without a lobe and with it, reflectance².
+    pub objectives: Buffer<[f32; 2]>,
+    /// `[texel]` [`FitStatus`](crate::data::FitStatus) code and steps tried.
+    pub outcomes: Buffer<[u32; 2]>,
+}
+
+/// The stage's kernels on one device.
+#[derive(Debug)]
+pub struct LafortuneFit {
+    start: Kernel,
+    step: Kernel,
+    result: Kernel,
+}
+
+impl LafortuneFit {
+    /// Builds the kernels.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the driver refuses one.
+    pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
+        let start = [Resource::uniform::<StartParams>("params"), Resource::read_write::<FitState>("states")];
+        let step = [
+            Resource::uniform::<StepParams>("params"),
+            Resource::read::<[f32; 4]>("products"),
+            Resource::read::<[f16; OCTET]>("residual"),
+            Resource::read_write::<FitState>("states"),
+        ];
+        let result = [
+            Resource::uniform::<ResultParams>("params"),
+            Resource::read::<FitState>("states"),
+            Resource::read_write::<[f32; 4]>("lobes"),
+            Resource::read_write::<[f32; 2]>("objectives"),
+            Resource::read_write::<[u32; 2]>("outcomes"),
+        ];
+        Ok(Self {
+            start: Kernel::new(gpu, &wgsl::LAFORTUNE_START, wgsl::ALL, &start)?,
+            step: Kernel::new(gpu, &wgsl::LAFORTUNE_FIT, wgsl::ALL, &step)?,
+            result: Kernel::new(gpu, &wgsl::LAFORTUNE_RESULT, wgsl::ALL, &result)?,
+        })
+    }
+
+    /// Fits a lobe to each texel's mean specular residual `[octet][texel]`.
+    ///
+    /// # Errors
+    /// [`GpuError`] if a result does not fit the adapter.
+    pub fn record(
+        &self, recorder: &mut Recorder<'_>, residual: &Buffer<[f16; OCTET]>, samples: &Samples, texels: usize, settings: &FitSettings,
+    ) -> Result<FittedLobes, GpuError> {
+        let gpu = recorder.gpu();
+        let descents = Descents {
+            stage: self,
+            products: upload_products(gpu, samples)?,
+            residual,
+            states: gpu.fresh("fit states", texels)?,
+            texels,
+            octets: samples.octets(),
+            settings,
+        };
+        let coarse = if samples.len() / COARSE >= MIN_COARSE_SAMPLES { COARSE } else { 1 };
+        let [least, greatest] = settings.exponents.map(single);
+        for (index, [x, y, z, exponent]) in STARTS.into_iter().enumerate() {
+            let start = [x, y, z, exponent.clamp(least, greatest)];
+            descents.record(recorder, start, index == 0, coarse)?;
+        }
+        let champion = [0.0; 4];
+        descents.record(recorder, champion, false, 1)?;
+
+        let params = gpu.uniform("lafortune_result params", &ResultParams { texels: count(texels), samples: count(samples.len()) })?;
+        let fitted = FittedLobes {
+            lobes: gpu.fresh("lobes", texels)?,
+            objectives: gpu.fresh("objectives", texels)?,
+            outcomes: gpu.fresh("outcomes", texels)?,
+        };
+        let binds = [
+            bind("params", &params),
+            bind("states", &descents.states),
+            bind("lobes", &fitted.lobes),
+            bind("objectives", &fitted.objectives),
+            bind("outcomes", &fitted.outcomes),
+        ];
+        recorder.dispatch(&self.result, &binds, Grid::threads(texels))?;
+        Ok(fitted)
+    }
+}
+
+/// What all descents of a tile share.
+struct Descents<'a> {
+    stage: &'a LafortuneFit,
+    products: Buffer<[f32; 4]>,
+    residual: &'a Buffer<[f16; OCTET]>,
+    states: Buffer<FitState>,
+    texels: usize,
+    octets: usize,
+    settings: &'a FitSettings,
+}
+
+impl Descents<'_> {
+    /// One descent from `start` over every `stride`th octet.
+    fn record(&self, recorder: &mut Recorder<'_>, start: [f32; 4], first: bool, stride: usize) -> Result<(), GpuError> {
+        let gpu = recorder.gpu();
+        let params = StartParams { start, texels: count(self.texels), first: u32::from(first), ..StartParams::default() };
+        let params = gpu.uniform("lafortune_start params", &params)?;
+        recorder.dispatch(&self.stage.start, &[bind("params", &params), bind("states", &self.states)], Grid::threads(self.texels))?;
+
+        let params = StepParams {
+            texels: count(self.texels),
+            octets: count(self.octets),
+            stride: count(stride),
+            tolerance: single(self.settings.tolerance),
+            min_exponent: single(self.settings.exponents[0]),
+            max_exponent: single(self.settings.exponents[1]),
+            ..StepParams::default()
+        };
+        let params = gpu.uniform("lafortune_fit params", &params)?;
+        let binds =
+            [bind("params", &params), bind("products", &self.products), bind("residual", self.residual), bind("states", &self.states)];
+        for _ in 0..self.settings.max_iterations {
+            recorder.dispatch(&self.stage.step, &binds, Grid::threads(self.texels))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,50 @@
+//! The picture that the source's camera would have recorded. Kernel `reconstruct`, twin
+//! [`reference::reconstruct`](crate::reference::reconstruct).
+//!
+//! The picture is rectified to the base plane z = 0 (the mean height): pixel (column, row) is what an orthographic camera sees
+//! along the ray that crosses the plane at that texel's centre. Relief moves and hides texels along that ray and shadows them;
+//! [`Relief`] switches each off. A view or light at the horizon or below it gives a black picture.
+
+use crate::{
+    data::Direction,
+    gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
+    model::Relief,
+    stage::Surface,
+    wgsl,
+};
+
+/// The stage's kernel on one device.
+#[derive(Debug)]
+pub struct Reconstruct {
+    kernel: Kernel,
+}
+
+impl Reconstruct {
+    /// Builds the kernel.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the driver refuses it.
+    pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
+        let mut resources = Surface::resources().to_vec();
+        resources.push(Resource::read_write::<[f32; 4]>("picture"));
+        Ok(Self { kernel: Kernel::new(gpu, &wgsl::RECONSTRUCT, wgsl::ALL, &resources)? })
+    }
+
+    /// The picture `[row][column]` of `surface` in reflectance units (π·L_o/E), fourth component 1.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the result does not fit the adapter.
+    pub fn record(
+        &self, recorder: &mut Recorder<'_>, surface: &Surface, view: Direction, light: Direction, relief: Relief,
+    ) -> Result<Buffer<[f32; 4]>, GpuError> {
+        let [width, height] = surface.size;
+        let texels = width as usize * height as usize;
+        let gpu = recorder.gpu();
+        let scene = surface.scene(gpu, view, light, relief)?;
+        let picture = gpu.fresh("reconstructed picture", texels)?;
+        let mut binds = surface.binds(&scene).to_vec();
+        binds.push(bind("picture", &picture));
+        recorder.dispatch(&self.kernel, &binds, Grid::threads(texels))?;
+        Ok(picture)
+    }
+}

@@ -1,0 +1,124 @@
+//! The main job as a user runs it, on the sample inside the program.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::OnceLock,
+};
+
+use overpaint::gpu::Gpu;
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::{overpaint, refused};
+
+crate::suite! {
+    gpu: the_report_names_only_files_that_are_there, the_timings_make_sense, info_tells_of_the_material, reconstructions_are_images_of_the_texel_plane,
+        renders_have_the_size_asked_for, a_material_is_not_written_over_something_else;
+}
+
+const DEMO: &str = "demo";
+const TIMINGS: &str = "timings.json";
+const MATERIAL: &str = "demo/weave64.zarr";
+
+/// The folder in which the demo has run, once for all tests here.
+fn demonstrated(gpu: &Gpu) -> &'static Path {
+    static FOLDER: OnceLock<TempDir> = OnceLock::new();
+    FOLDER
+        .get_or_init(|| {
+            let folder = tempfile::tempdir().expect("is made");
+            let ran = overpaint(folder.path(), &["demo", "-o", DEMO, "--timings", TIMINGS, "--adapter", &gpu.adapter().name]);
+            assert_eq!(ran.code, Some(0), "{ran:?}");
+            assert!(ran.stdout.contains("report.html") && ran.stdout.contains(&gpu.adapter().name), "{ran:?}");
+            folder
+        })
+        .path()
+}
+
+/// Runs a command in the demo's folder that must succeed; returns what it printed.
+fn succeed(gpu: &Gpu, arguments: &[&str]) -> String {
+    let ran = overpaint(demonstrated(gpu), arguments);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    ran.stdout
+}
+
+fn the_report_names_only_files_that_are_there(gpu: &Gpu) {
+    let folder = demonstrated(gpu).join(DEMO);
+    let html = fs::read_to_string(folder.join("report.html")).expect("is there");
+    assert!(!html.contains("<script") && !html.contains("http:") && !html.contains("https:"), "the report is self-contained");
+    assert!(html.contains(&gpu.adapter().name.replace('&', "&amp;")), "the adapter is named");
+    let named: Vec<_> =
+        ["src=\"", "href=\""].iter().flat_map(|start| html.split(start).skip(1)).filter_map(|rest| rest.split('"').next()).collect();
+    assert!(named.len() > 40, "{named:?}");
+    for file in named {
+        let picture = image::open(folder.join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+        assert!(picture.width() >= 64 && picture.height() >= 64, "{file}");
+    }
+}
+
+fn the_timings_make_sense(gpu: &Gpu) {
+    let text = fs::read_to_string(demonstrated(gpu).join(TIMINGS)).expect("is there");
+    let timings: Value = serde_json::from_str(&text).expect("is JSON");
+    assert_eq!(timings["adapter"]["name"], gpu.adapter().name);
+    let total = timings["wall_seconds"].as_f64().expect("is a number");
+    let stages = timings["stages"].as_array().expect("is a list");
+    assert!(stages.len() >= 5, "{stages:?}");
+    for stage in stages {
+        let wall = stage["wall_seconds"].as_f64().expect("is a number");
+        assert!((0.0..=total).contains(&wall), "{stage}");
+        // Passes of a stage run within its time on the wall; 1 ms for the adapter's own clock.
+        assert!(stage["gpu_seconds"].as_f64().is_none_or(|gpu| (0.0..=wall + 1e-3).contains(&gpu)), "{stage}");
+        assert!(stage["texels"].is_u64() && stage["samples"].is_u64(), "{stage}");
+    }
+    let sum: f64 = stages.iter().filter_map(|stage| stage["wall_seconds"].as_f64()).sum();
+    // Nearly all of the job is in some stage; two stages overlap at most.
+    assert!((0.5 * total..=2.0 * total).contains(&sum), "{sum} s of {total} s");
+}
+
+fn info_tells_of_the_material(gpu: &Gpu) {
+    let text = succeed(gpu, &["info", MATERIAL]);
+    for part in ["64 x 64", "51 views", "2601 samples", "max_iterations", "texel widths", &gpu.adapter().name] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let json: Value = serde_json::from_str(&succeed(gpu, &["info", MATERIAL, "--json"])).expect("is JSON");
+    assert_eq!((&json["kind"], &json["width"]), (&"material".into(), &64.into()));
+}
+
+fn reconstructions_are_images_of_the_texel_plane(gpu: &Gpu) {
+    for file in ["seen.png", "seen.exr"] {
+        // A direction that was not measured.
+        succeed(gpu, &["reconstruct", MATERIAL, "--view", "23.5,100", "--light", "41,33.3", "-o", file]);
+        holds_a_picture(&demonstrated(gpu).join(file), [64, 64]);
+    }
+}
+
+fn renders_have_the_size_asked_for(gpu: &Gpu) {
+    let painted = ["--paint", "watercolour/cadmium yellow", "--thickness", "0.4", "--relief", "1", "--pattern", "splash"];
+    for (file, coat) in [("bare.png", &[][..]), ("painted.png", &painted), ("painted.exr", &painted)] {
+        let arguments = [&["render", MATERIAL, "--size", "97x65", "-o", file], coat].concat();
+        succeed(gpu, &arguments);
+        holds_a_picture(&demonstrated(gpu).join(file), [97, 65]);
+    }
+    let read = |file: &str| fs::read(demonstrated(gpu).join(file)).expect("is there");
+    assert_ne!(read("bare.png"), read("painted.png"), "paint shows");
+}
+
+fn a_material_is_not_written_over_something_else(gpu: &Gpu) {
+    let folder = demonstrated(gpu);
+    fs::create_dir_all(folder.join("photographs")).expect("is made");
+    refused(&overpaint(folder, &["fit", "cloth.zip", "-o", "photographs"]), 1, "is no material");
+}
+
+/// The file is a picture of `size` that is neither black nor broken.
+fn holds_a_picture(path: &PathBuf, size: [usize; 2]) {
+    let (found, values): ([usize; 2], Vec<f32>) = if path.extension().is_some_and(|extension| extension == "exr") {
+        let image = exr::prelude::read_first_flat_layer_from_file(path).expect("is OpenEXR");
+        let found = [image.layer_data.size.0, image.layer_data.size.1];
+        (found, image.layer_data.channel_data.list.iter().flat_map(|channel| channel.sample_data.values_as_f32()).collect())
+    } else {
+        let image = image::open(path).expect("is PNG").into_rgb32f();
+        ([image.width() as usize, image.height() as usize], image.into_raw())
+    };
+    assert_eq!(found, size, "{}", path.display());
+    assert!(values.iter().all(|value| value.is_finite()) && values.iter().any(|&value| value > 0.01), "{}", path.display());
+}

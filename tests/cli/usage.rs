@@ -1,0 +1,61 @@
+use super::{overpaint, refused};
+
+crate::suite! { plain: nothing_typed_shows_the_help, values_out_of_range_are_usage_errors, what_belongs_together_is_asked_for_together; }
+
+fn nothing_typed_shows_the_help() {
+    let folder = tempfile::tempdir().expect("is made");
+    let ran = overpaint(folder.path(), &[]);
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
+    assert!(ran.stderr.contains("Usage: overpaint"), "{}", ran.stderr);
+}
+
+/// (arguments, what the error says).
+const OUT_OF_RANGE: &[(&[&str], &str)] = &[
+    (&["paint"], "unrecognized subcommand 'paint'"),
+    (&["reconstruct", "m", "--view", "90,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
+    (&["reconstruct", "m", "--view", "-1,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
+    (&["reconstruct", "m", "--view", "NaN,0", "--light", "0,0", "-o", "a.png"], "expected THETA,PHI"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "30,inf", "-o", "a.png"], "expected THETA,PHI"),
+    (&["reconstruct", "m", "--view", "30", "--light", "0,0", "-o", "a.png"], "expected THETA,PHI"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.jpg"], "ends in .png"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a"], "ends in .png"),
+    (&["render", "m", "--size", "0x0", "-o", "a.png"], "expected WxH"),
+    (&["render", "m", "--size", "512", "-o", "a.png"], "expected WxH"),
+    (&["render", "m", "--size", "8193x1", "-o", "a.png"], "expected WxH"),
+    (&["render", "m", "--size", "-5x5", "-o", "a.png"], "expected WxH"),
+    (&["render", "m", "--paint", "viridian", "--thickness", "-0.1", "-o", "a.png"], "expected a number of 0 or more"),
+    (&["render", "m", "--paint", "viridian", "--thickness", "NaN", "-o", "a.png"], "expected a number of 0 or more"),
+    (&["render", "m", "--paint", "viridian", "--thickness", "1", "--relief", "-1", "-o", "a.png"], "expected a number of 0 or more"),
+    (
+        &["render", "m", "--paint", "viridian", "--thickness", "1", "--refractive-index", "0.9", "-o", "a.png"],
+        "expected a number of 1 or more",
+    ),
+    (&["render", "m", "--paint", "viridian", "--thickness", "1", "--roughness", "0", "-o", "a.png"], "above 0, up to 1"),
+    (&["render", "m", "--paint", "viridian", "--thickness", "1e30", "-o", "a.png"], "at most 1e6"),
+    (&["render", "m", "--paint", "viridian", "--thickness", "1", "--pattern", "dots", "-o", "a.png"], "invalid value 'dots'"),
+    (&["render", "m", "--paint", "no such paint", "--thickness", "1", "-o", "a.png"], "no paint is called \"no such paint\""),
+    (&["fit", "s", "-o", "m", "--iterations", "0"], "0 is not in 1..=10000"),
+    (&["fit", "s", "-o", "m", "--iterations", "-1"], "-1 is not in 1..=10000"),
+    (&["fit", "s", "-o", "m", "--boundary", "torus"], "invalid value 'torus'"),
+    (&["fit", "s", "-o", "m", "--specular-scale", "guess"], "invalid value 'guess'"),
+    (&["fit", "s", "-o", "m", "--diffuse-quantile", "1.5"], "expected a number from 0 to 1"),
+    (&["fit", "s", "-o", "m", "--max-slope", "inf"], "expected a number above 0"),
+];
+
+fn values_out_of_range_are_usage_errors() {
+    let folder = tempfile::tempdir().expect("is made");
+    for (arguments, says) in OUT_OF_RANGE {
+        refused(&overpaint(folder.path(), arguments), 2, says);
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).expect("is there").count(), 0, "a usage error leaves nothing behind");
+}
+
+fn what_belongs_together_is_asked_for_together() {
+    let folder = tempfile::tempdir().expect("is made");
+    let refuse = |arguments: &[&str], says: &str| refused(&overpaint(folder.path(), arguments), 2, says);
+    refuse(&["render", "m"], "required arguments were not provided");
+    refuse(&["render", "m", "--paint", "viridian", "-o", "a.png"], "  --thickness <D>\n");
+    refuse(&["render", "m", "--pattern", "splash", "-o", "a.png"], "  --paint <NAME>\n");
+    refuse(&["info", "m", "--timings", "t.json"], "leave them out here");
+    refuse(&["adapters", "--adapter", "x"], "leave them out here");
+}

@@ -1,0 +1,126 @@
+use half::f16;
+use overpaint::{
+    data::{FitStatus, OCTET, Samples},
+    gpu::Gpu,
+    model::{FitSettings, lafortune},
+    reference,
+    stage::{FittedLobes, LafortuneFit},
+};
+
+use crate::{
+    parity::lafortune_fit::noisy_lobes,
+    support::{hold, random::Random, tile},
+};
+
+crate::suite! {
+    plain: the_gradient_is_that_of_finite_differences;
+    gpu: known_lobes_are_recovered, the_objective_never_rises, texels_without_energy_are_flagged, a_texel_does_not_depend_on_its_tile, exponents_keep_to_their_bounds;
+}
+
+fn fit(gpu: &Gpu, residual: &[[f16; OCTET]], samples: &Samples, settings: &FitSettings) -> FittedLobes {
+    let stage = LafortuneFit::new(gpu).expect("builds");
+    let mut recorder = gpu.recorder();
+    let buffer = gpu.upload("residual", residual).expect("fits");
+    let fitted = stage.record(&mut recorder, &buffer, samples, residual.len() / samples.octets(), settings).expect("records");
+    gpu.submit(recorder).wait(gpu).expect("runs");
+    fitted
+}
+
+fn the_gradient_is_that_of_finite_differences() {
+    let mut random = Random::new(29);
+    for product in tile::directions(&mut random, 200).products() {
+        let lobe = [-0.8, -0.7, random.between(0.5, 1.0), random.between(1.5, 30.0)];
+        let gradient = reference::lafortune_gradient(lobe, product);
+        for parameter in 0..4 {
+            let at = |step: f64| {
+                let mut moved = lobe;
+                moved[parameter] += step;
+                lafortune(moved, product)
+            };
+            // Central differences with h = 1e-6 err by h^2 f''' and by eps/h.
+            let difference = (at(1e-6) - at(-1e-6)) / 2e-6;
+            hold("lafortune_fit: gradient", (gradient[parameter] - difference).abs() / difference.abs().max(1.0), 1e-6);
+        }
+    }
+}
+
+/// Without noise the reprojected reflectance is that of the true lobe, to the rounding of the data to halves.
+fn known_lobes_are_recovered(gpu: &Gpu) {
+    let mut random = Random::new(31);
+    let samples = tile::directions(&mut random, 2601);
+    let truths = [
+        [-0.9, -0.9, 0.8, 12.0],
+        [-0.7, -1.0, 0.9, 4.0],
+        // Retro-reflection.
+        [0.9, 0.9, 0.9, 8.0],
+        [-0.6, -0.6, 0.6, 1.5],
+        // Off-specular.
+        [-1.0, -1.0, 0.6, 40.0],
+        [0.0, 0.0, 0.7, 2.0],
+    ];
+    let mut residual = vec![[f16::ZERO; OCTET]; samples.octets() * truths.len()];
+    for (texel, truth) in truths.iter().enumerate() {
+        for (sample, product) in samples.products().enumerate() {
+            residual[sample / OCTET * truths.len() + texel][sample % OCTET] = f16::from_f64(lafortune(*truth, product));
+        }
+    }
+    let lobes = fit(gpu, &residual, &samples, &FitSettings::default()).lobes.read(gpu).expect("reads");
+    for (lobe, truth) in lobes.iter().zip(truths) {
+        let (mut error, mut energy) = (0.0, 0.0);
+        for product in samples.products() {
+            error += (lafortune(lobe.map(f64::from), product) - lafortune(truth, product)).powi(2);
+            energy += lafortune(truth, product).powi(2);
+        }
+        // Halves round to 2.4e-4, relatively; the descent stops at a relative decrease of 1e-6, so within 1e-3.
+        hold("lafortune_fit: recovered reflectance, relative", (error / energy).sqrt(), 2e-3);
+    }
+}
+
+fn the_objective_never_rises(gpu: &Gpu) {
+    let mut random = Random::new(37);
+    let samples = tile::directions(&mut random, 200);
+    let residual = noisy_lobes(&mut random, &samples, 65, 0.1);
+    // One step a descent evaluates the starting points and moves nowhere.
+    let objectives = |max_iterations| {
+        let settings = FitSettings { max_iterations, ..FitSettings::default() };
+        fit(gpu, &residual, &samples, &settings).objectives.read(gpu).expect("reads")
+    };
+    let starts = objectives(1);
+    for max_iterations in [2, 3, 5, 8, 13, 40] {
+        for (texel, ([energy, objective], [_, start])) in objectives(max_iterations).into_iter().zip(&starts).enumerate() {
+            assert!(objective <= *start, "texel {texel}: {objective} after {max_iterations} steps, {start} before");
+            assert!(objective <= energy, "texel {texel}: a lobe that is worse than none");
+        }
+    }
+}
+
+fn texels_without_energy_are_flagged(gpu: &Gpu) {
+    let mut random = Random::new(41);
+    let samples = tile::directions(&mut random, 100);
+    let residual = vec![[f16::ZERO; OCTET]; samples.octets() * 3];
+    let fitted = fit(gpu, &residual, &samples, &FitSettings::default());
+    assert_eq!(fitted.lobes.read(gpu).expect("reads"), [[0.0, 0.0, 0.0, 1.0]; 3]);
+    assert_eq!(fitted.objectives.read(gpu).expect("reads"), [[0.0, 0.0]; 3]);
+    assert!(fitted.outcomes.read(gpu).expect("reads").iter().all(|outcome| FitStatus::from_code(outcome[0]) == Some(FitStatus::NoSpecular)));
+}
+
+/// The same bits, whichever tile a texel comes in.
+fn a_texel_does_not_depend_on_its_tile(gpu: &Gpu) {
+    let mut random = Random::new(43);
+    let samples = tile::directions(&mut random, 300);
+    let residual = noisy_lobes(&mut random, &samples, 70, 0.05);
+    let whole = fit(gpu, &residual, &samples, &FitSettings::default()).lobes.read(gpu).expect("reads");
+    let part: Vec<_> = residual.chunks(70).flat_map(|octet| &octet[33..52]).copied().collect();
+    let part = fit(gpu, &part, &samples, &FitSettings::default()).lobes.read(gpu).expect("reads");
+    assert_eq!(bytemuck::cast_slice::<_, u32>(&whole[33..52]), bytemuck::cast_slice::<_, u32>(&part));
+}
+
+fn exponents_keep_to_their_bounds(gpu: &Gpu) {
+    let mut random = Random::new(47);
+    let samples = tile::directions(&mut random, 400);
+    let residual = noisy_lobes(&mut random, &samples, 64, 0.1);
+    let settings = FitSettings { exponents: [5.0, 10.0], ..FitSettings::default() };
+    for lobe in fit(gpu, &residual, &samples, &settings).lobes.read(gpu).expect("reads") {
+        assert!((5.0..=10.0).contains(&lobe[3]), "{}", lobe[3]);
+    }
+}

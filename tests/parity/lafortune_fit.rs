@@ -1,0 +1,60 @@
+use half::f16;
+use overpaint::{
+    data::{FitStatus, OCTET, Samples},
+    gpu::Gpu,
+    model::{FitSettings, lafortune},
+    reference, stage,
+};
+
+use crate::support::{hold, random::Random, tile};
+
+crate::suite! { gpu: objective_is_as_low_as_its_twins; }
+
+/// Noisy lobes: s = (C p)^n plus noise, never negative. Broad enough that a few dozen random samples see them.
+pub fn noisy_lobes(random: &mut Random, samples: &Samples, texels: usize, noise: f64) -> Vec<[f16; OCTET]> {
+    let octets = samples.octets();
+    let mut residual = vec![[f16::ZERO; OCTET]; octets * texels];
+    for texel in 0..texels {
+        let scale = random.between(0.6, 1.1);
+        let lobe = [-scale, -scale * random.between(0.8, 1.2), scale * random.between(0.6, 1.2), random.between(1.2, 8.0)];
+        for (sample, product) in samples.products().enumerate() {
+            let value = (lafortune(lobe, product) + noise * random.between(-1.0, 1.0)).max(0.0);
+            residual[sample / OCTET * texels + texel][sample % OCTET] = f16::from_f64(value);
+        }
+    }
+    residual
+}
+
+fn objective_is_as_low_as_its_twins(gpu: &Gpu) {
+    let settings = FitSettings::default();
+    for (samples, texels) in [(40, 1), (63, 63), (257, 64), (600, 65), (2601, 5)] {
+        let mut random = Random::new(23);
+        let directions = tile::directions(&mut random, samples);
+        let residual = noisy_lobes(&mut random, &directions, texels, 0.05);
+        let given = tile::unpack(&residual, texels);
+        let stage = stage::LafortuneFit::new(gpu).expect("builds");
+        let mut recorder = gpu.recorder();
+        let buffer = gpu.upload("residual", &residual).expect("fits");
+        let fitted = stage.record(&mut recorder, &buffer, &directions, texels, &settings).expect("records");
+        gpu.submit(recorder).wait(gpu).expect("runs");
+        let (lobes, objectives) = (fitted.lobes.read(gpu).expect("reads"), fitted.objectives.read(gpu).expect("reads"));
+        let outcomes = fitted.outcomes.read(gpu).expect("reads");
+        let (mut excess, mut misreported) = (0.0_f64, 0.0_f64);
+        for texel in 0..texels {
+            let s: Vec<f64> = (0..samples).map(|sample| given[sample * texels + texel]).collect();
+            let twin = stage::STARTS
+                .iter()
+                .map(|start| reference::lafortune_fit(start.map(f64::from), &s, &directions, &settings).objective)
+                .fold(f64::INFINITY, f64::min);
+            let found = reference::lafortune_objective(lobes[texel].map(f64::from), &s, &directions);
+            excess = excess.max(found / twin - 1.0);
+            misreported = misreported.max((f64::from(objectives[texel][1]) / found - 1.0).abs());
+            assert!(found.is_finite() && twin.is_finite());
+            assert!(FitStatus::from_code(outcomes[texel][0]).is_some(), "status {} of texel {texel}", outcomes[texel][0]);
+        }
+        // The descent stops when a step gains less than 1e-6; what is left of a slow tail stays below a thousandth.
+        hold("lafortune_fit: objective over the twin's", excess, 1e-3);
+        // Single precision's sum of thousands of squares, and the lobe's rounding to (C, n).
+        hold("lafortune_fit: reported objective", misreported, 1e-4);
+    }
+}

@@ -1,0 +1,57 @@
+use overpaint::{gpu::Gpu, reference, stage};
+
+use crate::support::{hold, random::Random, tile};
+
+crate::suite! { gpu: agrees_with_its_twin, order_statistics_are_exact, ties_and_signs; }
+
+fn quantiles(gpu: &Gpu, tile: &stage::Tile, quantile: f64) -> Vec<[f32; 4]> {
+    let stage = stage::Percentile::new(gpu).expect("builds");
+    let mut recorder = gpu.recorder();
+    let quantiles = stage.record(&mut recorder, tile, quantile).expect("records");
+    gpu.submit(recorder).wait(gpu).expect("runs");
+    quantiles.read(gpu).expect("reads")
+}
+
+/// Worst difference over all texels and channels from the quantile of a sort.
+fn worst(gpu: &Gpu, texels: usize, samples: usize, quantile: f64, mut value: impl FnMut(usize) -> f64) -> f64 {
+    let tile = tile::upload(gpu, texels, samples, |_, sample, _| value(sample));
+    let given = tile::unpack(&tile.values.read(gpu).expect("reads"), texels);
+    let found = quantiles(gpu, &tile, quantile);
+    let filled = tile.octets() * 8;
+    let mut worst = 0.0_f64;
+    for texel in 0..texels {
+        assert_eq!(found[texel][3].to_bits(), 0);
+        for channel in 0..3 {
+            let values: Vec<f64> = (0..samples).map(|sample| given[(channel * filled + sample) * texels + texel]).collect();
+            let expected = reference::percentile(&values, quantile).expect("has values");
+            let error = (f64::from(found[texel][channel]) - expected).abs();
+            worst = if error.is_finite() { worst.max(error) } else { f64::NAN };
+        }
+    }
+    worst
+}
+
+fn agrees_with_its_twin(gpu: &Gpu) {
+    for (texels, samples) in [(1, 1), (63, 2), (64, 7), (65, 8), (5, 9), (130, 63), (3, 65), (2, 6561)] {
+        for quantile in [0.0, 0.1, 0.37, 0.5, 1.0] {
+            let mut random = Random::new(11);
+            // The order statistics are exact; the rule between them is one f32 multiply-add of values below 2.
+            hold("percentile", worst(gpu, texels, samples, quantile, |_| random.between(0.0, 2.0)), 2.4e-7);
+        }
+    }
+}
+
+/// 0.1 of 81 samples is the 8th exactly: no interpolation, so no difference at all.
+fn order_statistics_are_exact(gpu: &Gpu) {
+    let mut random = Random::new(12);
+    hold("percentile: order statistic", worst(gpu, 64 * 70, 81, 0.1, |_| random.between(0.0, 1.0)), 0.0);
+}
+
+fn ties_and_signs(gpu: &Gpu) {
+    let mut random = Random::new(13);
+    for samples in [10, 16, 41, 100] {
+        let few = [-2.0, -0.5, 0.0, 0.25, 0.25, 3.0];
+        hold("percentile: ties and signs", worst(gpu, 70, samples, 0.1, |_| few[random.below(6)]), 4.8e-7);
+        hold("percentile: ties and signs", worst(gpu, 70, samples, 0.83, |_| few[random.below(6)]), 4.8e-7);
+    }
+}
