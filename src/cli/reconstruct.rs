@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CliError, arguments, output, session::SessionArguments};
-use crate::{data::Direction, io, pipeline::Studio};
+use crate::{data::Direction, io, model::Relief, pipeline::Studio};
 
 /// Show what the source would have recorded under a view and a light, measured or not.
 #[derive(Debug, Args)]
@@ -34,7 +34,9 @@ impl Reconstruct {
         output::check_file(&self.output)?;
         let material = io::material::load(&self.material)?;
         let session = session.open()?;
-        let picture = Studio::new(&session.gpu)?.reconstruct(&material, self.view, self.light, &session.progress)?;
+        let studio = Studio::new(&session.gpu)?;
+        let surface = studio.surface(&material, None, &session.progress)?;
+        let picture = studio.reconstruct(&surface, self.view, self.light, Relief::default(), &session.progress)?;
         io::picture::write(&self.output, &picture)?;
         session.finish()?;
         Ok(())

@@ -8,7 +8,7 @@ use super::{Cli, CliError, arguments, output, session::SessionArguments};
 use crate::{
     data::{Direction, PlaneView},
     io,
-    model::{Layer, Paint, Pattern, pigments},
+    model::{Layer, Paint, Pattern, Relief, pigments},
     pipeline::{Painting, Studio},
 };
 
@@ -116,7 +116,9 @@ impl Render {
         let material = io::material::load(&self.material)?;
         let session = session.open()?;
         let studio = Studio::new(&session.gpu)?;
-        let picture = studio.render(&material, painting.as_ref(), &PlaneView::new(self.view, self.light, self.size), &session.progress)?;
+        let surface = studio.surface(&material, painting.as_ref(), &session.progress)?;
+        let shot = PlaneView::new(self.view, self.light, self.size);
+        let picture = studio.render(&surface, &shot, Relief::default(), &session.progress)?;
         io::picture::write(&self.output, &picture)?;
         session.finish()?;
         Ok(())

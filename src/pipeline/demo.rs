@@ -10,7 +10,7 @@ use crate::{
     data::{Btf, Direction, Map, Material, PlaneView, Transfer},
     gpu::Gpu,
     io::{self, Source},
-    model::{FitSettings, Layer, Paint, Pattern, color::linear_from_srgb, pigments},
+    model::{FitSettings, Layer, Paint, Pattern, Relief, color::linear_from_srgb, pigments},
 };
 
 /// Name of the report in the demo's folder.
@@ -125,10 +125,11 @@ impl Job<'_> {
         let mut rows =
             ["original", "positive difference", "negative difference", "reconstruction"].map(|label| Row { label, cells: Vec::new() });
         let mut columns = Vec::new();
+        let surface = self.studio.surface(self.material, None, self.progress)?;
         for theta in LIGHTS {
             let light = nearest(btf.lights(), (theta, 0.0));
             let original = self.original(view, light)?;
-            let found = self.studio.reconstruct(self.material, btf.views()[view], btf.lights()[light], self.progress)?;
+            let found = self.studio.reconstruct(&surface, btf.views()[view], btf.lights()[light], Relief::default(), self.progress)?;
             let error = relative_rms(&original, &found);
             let pictures = [difference(&original, &found), difference(&found, &original), found];
             for (row, picture) in rows.iter_mut().zip([original].into_iter().chain(pictures)) {
@@ -156,7 +157,10 @@ impl Job<'_> {
     fn painted(&self) -> Result<Figure, PipelineError> {
         let [view, light] = [PAINTED_VIEW, PAINTED_LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
         let shot = PlaneView::new(view, light, PAINTED_SIZE);
-        let render = |painting: Option<&Painting>| self.studio.render(self.material, painting, &shot, self.progress);
+        let render = |painting: Option<&Painting>| {
+            let surface = self.studio.surface(self.material, painting, self.progress)?;
+            self.studio.render(&surface, &shot, Relief::default(), self.progress)
+        };
         let bare = render(None)?;
         let mut rows = Vec::new();
         for (name, thicknesses) in PAINTS {

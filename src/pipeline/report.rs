@@ -71,8 +71,8 @@ table { border-collapse: collapse; }
 th { font-weight: normal; color: #444; }
 .pictures { width: 100%; table-layout: fixed; }
 .pictures td, .pictures th { padding: 0.2rem; text-align: center; vertical-align: top; }
-.pictures .label { width: 6rem; text-align: left; vertical-align: middle; }
-.pictures img { width: 100%; display: block; }
+.pictures .label { width: 7rem; overflow-wrap: anywhere; text-align: left; vertical-align: middle; }
+.pictures img { width: 100%; height: auto; display: block; }
 img.small { image-rendering: pixelated; }
 .stages td, .stages th { padding: 0.15rem 1rem 0.15rem 0; text-align: right; }
 .stages td:first-child, .stages th:first-child, .stages td:last-child, .stages th:last-child { text-align: left; }

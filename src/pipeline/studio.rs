@@ -47,41 +47,11 @@ impl<'g> Studio<'g> {
         })
     }
 
-    /// The image that the source would have recorded from `view` under `light`: one pixel a texel on the base plane, linear
-    /// RGBA in reflectance units, `[row][column]`.
-    ///
-    /// # Errors
-    /// [`PipelineError::Gpu`] if the maps do not fit the adapter.
-    pub fn reconstruct(
-        &self, material: &Material, view: Direction, light: Direction, progress: &Progress,
-    ) -> Result<Map<[f32; 4]>, PipelineError> {
-        let surface = self.surface(material, None, progress)?;
-        let [width, height] = material.size();
-        let picture = run(self.gpu, progress, "reconstruct", [width * height, 1], |recorder| {
-            self.reconstruct.record(recorder, &surface, view, light, Relief::default())
-        })?;
-        Ok(Map::new(width, height, picture.read(self.gpu)?)?)
-    }
-
-    /// The material as a plane of `size` pixels, painted if asked: linear RGBA, premultiplied, `[row][column]`.
-    ///
-    /// # Errors
-    /// [`PipelineError::Gpu`] if the maps or the picture do not fit the adapter.
-    pub fn render(
-        &self, material: &Material, painting: Option<&Painting>, shot: &PlaneView, progress: &Progress,
-    ) -> Result<Map<[f32; 4]>, PipelineError> {
-        let surface = self.surface(material, painting, progress)?;
-        let [width, height] = shot.size.map(|pixels| pixels as usize);
-        let (target, padded) = run(self.gpu, progress, "plane", [width * height, 1], |recorder| {
-            let target = self.plane.draw(recorder, &surface, shot, Relief::default())?;
-            let padded = target.record_copy(recorder)?;
-            Ok::<_, PipelineError>((target, padded))
-        })?;
-        Ok(Map::new(width, height, target.unpad(&padded.read(self.gpu)?))?)
-    }
-
     /// The maps that pictures are made from, painted if asked.
-    fn surface(&self, material: &Material, painting: Option<&Painting>, progress: &Progress) -> Result<Surface, PipelineError> {
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if a map does not fit the adapter.
+    pub fn surface(&self, material: &Material, painting: Option<&Painting>, progress: &Progress) -> Result<Surface, PipelineError> {
         let gpu = self.gpu;
         let [columns, rows] = material.size();
         let (size, texels) = ([stage::count(columns), stage::count(rows)], columns * rows);
@@ -115,6 +85,35 @@ impl<'g> Studio<'g> {
             boundary,
             coat,
         })
+    }
+
+    /// The image that the source would have recorded from `view` under `light`: one pixel a texel on the base plane, linear
+    /// RGBA in reflectance units, `[row][column]`.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if the picture does not fit the adapter.
+    pub fn reconstruct(
+        &self, surface: &Surface, view: Direction, light: Direction, relief: Relief, progress: &Progress,
+    ) -> Result<Map<[f32; 4]>, PipelineError> {
+        let [width, height] = surface.size.map(|texels| texels as usize);
+        let picture = run(self.gpu, progress, "reconstruct", [width * height, 1], |recorder| {
+            self.reconstruct.record(recorder, surface, view, light, relief)
+        })?;
+        Ok(Map::new(width, height, picture.read(self.gpu)?)?)
+    }
+
+    /// The material as a plane in space: linear RGBA, premultiplied, `[row][column]`.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if the picture does not fit the adapter.
+    pub fn render(&self, surface: &Surface, shot: &PlaneView, relief: Relief, progress: &Progress) -> Result<Map<[f32; 4]>, PipelineError> {
+        let [width, height] = shot.size.map(|pixels| pixels as usize);
+        let (target, padded) = run(self.gpu, progress, "plane", [width * height, 1], |recorder| {
+            let target = self.plane.draw(recorder, surface, shot, relief)?;
+            let padded = target.record_copy(recorder)?;
+            Ok::<_, PipelineError>((target, padded))
+        })?;
+        Ok(Map::new(width, height, target.unpad(&padded.read(self.gpu)?))?)
     }
 }
 
