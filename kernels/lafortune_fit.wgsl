@@ -15,14 +15,13 @@
 struct Params {
     texels: u32,
     octets: u32,
-    // only every stride-th octet is looked at
-    stride: u32,
     // relative decrease below which a descent has converged
     tolerance: f32,
     min_exponent: f32,
     max_exponent: f32,
     _pad0: u32,
     _pad1: u32,
+    _pad2: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
@@ -85,10 +84,10 @@ fn add_sample(gram: ptr<function, Gram>, candidate: vec4<f32>, amplitude: f32, p
 
 fn gram_at(texel: u32, candidate: vec4<f32>, amplitude: f32) -> Gram {
     var total = Gram();
-    for (var block = 0u; block < params.octets; block += BLOCK * params.stride) {
+    for (var block = 0u; block < params.octets; block += BLOCK) {
         var part = Gram();
-        let end = min(block + BLOCK * params.stride, params.octets);
-        for (var octet = block; octet < end; octet += params.stride) {
+        let end = min(block + BLOCK, params.octets);
+        for (var octet = block; octet < end; octet++) {
             let s = unpack_octet(residual[octet * params.texels + texel]);
             let first = octet * 8u;
             add_sample(&part, candidate, amplitude, products[first].xyz, s.low.x);

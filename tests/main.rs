@@ -3,6 +3,8 @@
 //! Tests that need an adapter fail without one unless `OVERPAINT_GPU=none` is set; tests that need the shared data set
 //! look at `OVERPAINT_DATA`, then `../shared/data`. Those that cannot run are listed as ignored and counted.
 
+#![expect(clippy::cast_possible_truncation, reason = "tests count and round small numbers")]
+
 mod cli;
 mod io;
 mod law;

@@ -44,7 +44,7 @@ pub struct Fit {
     #[arg(long, value_name = "N", default_value_t = FitSettings::default().max_iterations, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     iterations: u32,
     /// Bounds of the lobe's exponent
-    #[arg(long, value_name = "MIN,MAX", default_value = "1,1000", allow_hyphen_values = true, value_parser = arguments::exponents)]
+    #[arg(long, value_name = "MIN,MAX", default_value = "0.5,1000", allow_hyphen_values = true, value_parser = arguments::exponents)]
     exponents: [f64; 2],
     /// How the specular albedo follows from the lobe
     #[arg(long, value_name = "RULE", default_value = "least-squares", value_parser = arguments::specular_scale())]

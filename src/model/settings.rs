@@ -31,9 +31,10 @@ pub struct FitSettings {
     pub max_iterations: u32,
     /// A descent has converged when a step lowers the objective by less than this, relatively.
     pub tolerance: f64,
-    /// The lobe's exponent is held to [least, greatest]. Below 1 a lobe has a vertical edge where its base meets zero: the fit
-    /// then traces the edges of shadows, the objective has a local minimum at every sample there, and pictures between the
-    /// measured directions show the edge. It costs less than 1 % in relative RMS on the path-traced sets.
+    /// The lobe's exponent is held to [least, greatest]. Below 1 a lobe has a vertical edge where its base meets zero, by which the
+    /// fit follows the edges of shadows: relative RMS of flat reconstructions at a least exponent of 1, 0.5 and 0.1 is 0.277,
+    /// 0.270 and 0.267 on the path-traced weave, 0.423, 0.398 and 0.393 on the blocks. The lower the bound, the more local minima
+    /// (one at every sample on the edge) and the harder the edge in pictures between measured directions.
     pub exponents: [f64; 2],
     /// How ρ_s is found.
     pub specular_scale: SpecularScale,
@@ -55,7 +56,7 @@ impl Default for FitSettings {
             max_iterations: 40,
             // Single precision sums thousands of squares to about 1e-6.
             tolerance: 1e-6,
-            exponents: [1.0, 1000.0],
+            exponents: [0.5, 1000.0],
             specular_scale: SpecularScale::LeastSquares,
             min_lobe: 0.01,
         }

@@ -139,7 +139,7 @@ fn factors(length: u32) -> Vec<u32> {
     let mut factors = Vec::new();
     let mut rest = length;
     for radix in std::iter::once(4).chain(2..=length) {
-        while rest % radix == 0 {
+        while rest.is_multiple_of(radix) {
             factors.push(radix);
             rest /= radix;
         }

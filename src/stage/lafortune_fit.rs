@@ -6,9 +6,9 @@
 //! single precision stalls in the valley between them; as A·(k·p)^n with a unit vector k the same family of lobes has its
 //! linear part apart, and the rest is well conditioned. The result is given as C and n again.
 //!
-//! The objective has more than one minimum. Descents from a retro-reflecting and from a diffuse-like direction run on every
-//! [`COARSE`]th octet first; the better one goes on with all samples. A descent is a fixed number of passes, and a texel
-//! that has finished returns at once.
+//! The objective has more than one minimum: a highlight's, and others where the lobe traces the edges of shadows. So each
+//! texel descends a little way from each of [`STARTS`], and the best of those points goes on until it settles. A descent is a
+//! fixed number of passes; a texel that has finished returns at once.
 
 use half::f16;
 
@@ -50,21 +50,27 @@ gpu_struct! {
 }
 gpu_struct! {
     struct StepParams {
-        texels: u32, octets: u32, stride: u32, tolerance: f32, min_exponent: f32, max_exponent: f32, _pad0: u32, _pad1: u32,
+        texels: u32, octets: u32, tolerance: f32, min_exponent: f32, max_exponent: f32, _pad0: u32, _pad1: u32, _pad2: u32,
     }
 }
 gpu_struct! {
     struct ResultParams { texels: u32, samples: u32 }
 }
 
-/// Starting points (k, n): towards the mirrored light, as a highlight wants, and along the normal, as a diffuse-like residue wants.
-pub const STARTS: [[f32; 4]; 2] = [[-0.577_350_26, -0.577_350_26, 0.577_350_26, 1.0], [0.0, 0.0, 1.0, 1.0]];
+/// Starting points (k, n): towards the mirrored light, broad and narrow, as a highlight wants; along the normal, as a
+/// diffuse-like residue wants; and back to the light.
+pub const STARTS: [[f32; 4]; 4] = [
+    [-0.577_350_26, -0.577_350_26, 0.577_350_26, 1.0],
+    [-0.577_350_26, -0.577_350_26, 0.577_350_26, 10.0],
+    [0.0, 0.0, 1.0, 1.0],
+    [0.577_350_26, 0.577_350_26, 0.577_350_26, 1.0],
+];
 
-/// The first descents look at every octet of this many.
-const COARSE: usize = 8;
+/// Steps of each descent that looks for the best start.
+const EXPLORING_STEPS: u32 = 15;
 
-/// Below this many samples in the coarse subset all are used from the start: five unknowns want some hundreds.
-const MIN_COARSE_SAMPLES: usize = 256;
+/// How much coarser than the last descent's its tolerance is.
+const EXPLORING_TOLERANCE: f64 = 100.0;
 
 /// What the fit of a tile gives.
 #[derive(Debug)]
@@ -129,14 +135,19 @@ impl LafortuneFit {
             octets: samples.octets(),
             settings,
         };
-        let coarse = if samples.len() / COARSE >= MIN_COARSE_SAMPLES { COARSE } else { 1 };
         let [least, greatest] = settings.exponents.map(single);
         for (index, [x, y, z, exponent]) in STARTS.into_iter().enumerate() {
             let start = [x, y, z, exponent.clamp(least, greatest)];
-            descents.record(recorder, start, index == 0, coarse)?;
+            descents.record(
+                recorder,
+                start,
+                index == 0,
+                settings.max_iterations.min(EXPLORING_STEPS),
+                EXPLORING_TOLERANCE * settings.tolerance,
+            )?;
         }
         let champion = [0.0; 4];
-        descents.record(recorder, champion, false, 1)?;
+        descents.record(recorder, champion, false, settings.max_iterations, settings.tolerance)?;
 
         let params = gpu.uniform("lafortune_result params", &ResultParams { texels: count(texels), samples: count(samples.len()) })?;
         let fitted = FittedLobes {
@@ -168,8 +179,8 @@ struct Descents<'a> {
 }
 
 impl Descents<'_> {
-    /// One descent from `start` over every `stride`th octet.
-    fn record(&self, recorder: &mut Recorder<'_>, start: [f32; 4], first: bool, stride: usize) -> Result<(), GpuError> {
+    /// One descent from `start`, of at most `steps`.
+    fn record(&self, recorder: &mut Recorder<'_>, start: [f32; 4], first: bool, steps: u32, tolerance: f64) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
         let params = StartParams { start, texels: count(self.texels), first: u32::from(first), ..StartParams::default() };
         let params = gpu.uniform("lafortune_start params", &params)?;
@@ -178,8 +189,7 @@ impl Descents<'_> {
         let params = StepParams {
             texels: count(self.texels),
             octets: count(self.octets),
-            stride: count(stride),
-            tolerance: single(self.settings.tolerance),
+            tolerance: single(tolerance),
             min_exponent: single(self.settings.exponents[0]),
             max_exponent: single(self.settings.exponents[1]),
             ..StepParams::default()
@@ -187,7 +197,7 @@ impl Descents<'_> {
         let params = gpu.uniform("lafortune_fit params", &params)?;
         let binds =
             [bind("params", &params), bind("products", &self.products), bind("residual", self.residual), bind("states", &self.states)];
-        for _ in 0..self.settings.max_iterations {
+        for _ in 0..steps {
             recorder.dispatch(&self.stage.step, &binds, Grid::threads(self.texels))?;
         }
         Ok(())

@@ -9,6 +9,7 @@ crate::suites! {
     microfacet,
     normals,
     paint_relief,
+    path_traced,
     pattern,
     percentile,
     photometric_stereo,

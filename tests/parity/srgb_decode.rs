@@ -48,7 +48,7 @@ fn agrees_with_its_twin(gpu: &Gpu) {
 fn every_code_decodes(gpu: &Gpu) {
     let codes: Vec<u32> = (0..256).map(|code| code * 0x0001_0101).collect();
     let found = decode(gpu, &codes, 1, 256);
-    for code in 0..256 {
-        hold("srgb_decode: every code", relative(found[code], reference::srgb_decode(code as u8)), BOUND);
+    for (code, found) in (0..=255).zip(found) {
+        hold("srgb_decode: every code", relative(found, reference::srgb_decode(code)), BOUND);
     }
 }

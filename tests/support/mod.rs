@@ -1,5 +1,6 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
+pub mod npy;
 pub mod probe;
 pub mod random;
 pub mod surface;
@@ -122,7 +123,7 @@ pub fn fft_bound(length: usize) -> f64 {
     let mut rest = length;
     let mut typical = 1.0;
     for factor in 2..=length {
-        while rest % factor == 0 {
+        while rest.is_multiple_of(factor) {
             typical += (factor as f64).sqrt();
             rest /= factor;
         }
