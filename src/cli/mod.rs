@@ -40,7 +40,7 @@ Examples:
   overpaint demo
   overpaint fit cloth.zip -o cloth.zarr
   overpaint info cloth.zarr
-  overpaint render cloth.zarr --paint \"Cadmium Yellow\" --thickness 0.3 -o cloth.png
+  overpaint render cloth.zarr --paint \"oil/cobalt blue\" --thickness 4 -o cloth.png
 
 Directions are THETA,PHI in degrees: THETA from the normal, PHI counter-clockwise from the right.
 Exit codes: 0 done, 1 failed, 2 wrong usage.";
