@@ -31,6 +31,8 @@ struct Params {
 @group(0) @binding(2) var<storage, read> residual: array<vec4<u32>>;
 // [texel]
 @group(0) @binding(3) var<storage, read_write> states: array<FitState>;
+// number of texels that still run, then those texels
+@group(0) @binding(4) var<storage, read> listed: array<u32>;
 
 const SIZE: u32 = 64u;
 // Octets summed apart before they join the total: keeps the rounding of a sum over n samples near sqrt(n / 256) instead
@@ -176,10 +178,12 @@ fn propose(state: ptr<function, FitState>) {
 
 @compute @workgroup_size(SIZE)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
-    let texel = thread_index(group, groups, local, SIZE);
-    if texel >= params.texels {
+    let index = thread_index(group, groups, local, SIZE);
+    if index >= listed[0] {
         return;
     }
+    let texel = listed[1u + index];
+    // The list may be some steps old.
     if states[texel].status != RUNNING {
         return;
     }

@@ -31,6 +31,8 @@ sources! {
     KUBELKA_MUNK = "kernels" "kubelka_munk";
     /// The Lafortune lobe.
     LAFORTUNE = "kernels/common" "lafortune";
+    /// Texels whose Lafortune fit still runs.
+    LAFORTUNE_ACTIVE = "kernels" "lafortune_active";
     /// One step of the Lafortune fit.
     LAFORTUNE_FIT = "kernels" "lafortune_fit";
     /// End of the Lafortune fit.

@@ -1,5 +1,5 @@
 //! Levenberg-Marquardt fit of one Lafortune lobe a texel (Lafortune et al. 1997; thesis section 3.2.2, step 5). Kernels
-//! `lafortune_start`, `lafortune_fit` (one step) and `lafortune_result`, twin
+//! `lafortune_start`, `lafortune_active`, `lafortune_fit` (one step) and `lafortune_result`, twin
 //! [`reference::lafortune_fit`](crate::reference::lafortune_fit).
 //!
 //! The thesis fits (C_x, C_y, C_z, n) as they stand. In these the amplitude |C|^n and the exponent are nearly dependent and
@@ -8,7 +8,8 @@
 //!
 //! The objective has more than one minimum: a highlight's, and others where the lobe traces the edges of shadows. So each
 //! texel descends a little way from each of [`STARTS`], and the best of those points goes on until it settles. A descent is a
-//! fixed number of passes; a texel that has finished returns at once.
+//! fixed number of passes; every [`STEPS_A_LIST`]th is preceded by a new list of the texels that still run, so that threads
+//! side by side all have work.
 
 use half::f16;
 
@@ -54,6 +55,9 @@ gpu_struct! {
     }
 }
 gpu_struct! {
+    struct ActiveParams { texels: u32, _pad0: u32, _pad1: u32, _pad2: u32 }
+}
+gpu_struct! {
     struct ResultParams { texels: u32, samples: u32 }
 }
 
@@ -68,6 +72,9 @@ pub const STARTS: [[f32; 4]; 4] = [
 
 /// Steps of each descent that looks for the best start.
 const EXPLORING_STEPS: u32 = 15;
+
+/// Steps between two lists of the running texels: a list costs a small part of a step.
+const STEPS_A_LIST: u32 = 4;
 
 /// How much coarser than the last descent's its tolerance is.
 const EXPLORING_TOLERANCE: f64 = 100.0;
@@ -87,6 +94,7 @@ pub struct FittedLobes {
 #[derive(Debug)]
 pub struct LafortuneFit {
     start: Kernel,
+    active: Kernel,
     step: Kernel,
     result: Kernel,
 }
@@ -98,11 +106,14 @@ impl LafortuneFit {
     /// [`GpuError`] if the driver refuses one.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         let start = [Resource::uniform::<StartParams>("params"), Resource::read_write::<FitState>("states")];
+        let active =
+            [Resource::uniform::<ActiveParams>("params"), Resource::read::<FitState>("states"), Resource::read_write::<u32>("listed")];
         let step = [
             Resource::uniform::<StepParams>("params"),
             Resource::read::<[f32; 4]>("products"),
             Resource::read::<[f16; OCTET]>("residual"),
             Resource::read_write::<FitState>("states"),
+            Resource::read::<u32>("listed"),
         ];
         let result = [
             Resource::uniform::<ResultParams>("params"),
@@ -113,6 +124,7 @@ impl LafortuneFit {
         ];
         Ok(Self {
             start: Kernel::new(gpu, &wgsl::LAFORTUNE_START, wgsl::ALL, &start)?,
+            active: Kernel::new(gpu, &wgsl::LAFORTUNE_ACTIVE, wgsl::ALL, &active)?,
             step: Kernel::new(gpu, &wgsl::LAFORTUNE_FIT, wgsl::ALL, &step)?,
             result: Kernel::new(gpu, &wgsl::LAFORTUNE_RESULT, wgsl::ALL, &result)?,
         })
@@ -131,6 +143,7 @@ impl LafortuneFit {
             products: upload_products(gpu, samples)?,
             residual,
             states: gpu.fresh("fit states", texels)?,
+            listed: gpu.fresh("running texels", 1 + texels)?,
             texels,
             octets: samples.octets(),
             settings,
@@ -173,6 +186,7 @@ struct Descents<'a> {
     products: Buffer<[f32; 4]>,
     residual: &'a Buffer<[f16; OCTET]>,
     states: Buffer<FitState>,
+    listed: Buffer<u32>,
     texels: usize,
     octets: usize,
     settings: &'a FitSettings,
@@ -186,6 +200,10 @@ impl Descents<'_> {
         let params = gpu.uniform("lafortune_start params", &params)?;
         recorder.dispatch(&self.stage.start, &[bind("params", &params), bind("states", &self.states)], Grid::threads(self.texels))?;
 
+        let params = ActiveParams { texels: count(self.texels), ..ActiveParams::default() };
+        let params = gpu.uniform("lafortune_active params", &params)?;
+        let active = [bind("params", &params), bind("states", &self.states), bind("listed", &self.listed)];
+
         let params = StepParams {
             texels: count(self.texels),
             octets: count(self.octets),
@@ -195,10 +213,18 @@ impl Descents<'_> {
             ..StepParams::default()
         };
         let params = gpu.uniform("lafortune_fit params", &params)?;
-        let binds =
-            [bind("params", &params), bind("products", &self.products), bind("residual", self.residual), bind("states", &self.states)];
-        for _ in 0..steps {
-            recorder.dispatch(&self.stage.step, &binds, Grid::threads(self.texels))?;
+        let step = [
+            bind("params", &params),
+            bind("products", &self.products),
+            bind("residual", self.residual),
+            bind("states", &self.states),
+            bind("listed", &self.listed),
+        ];
+        for index in 0..steps {
+            if index.is_multiple_of(STEPS_A_LIST) {
+                recorder.dispatch(&self.stage.active, &active, Grid::threads(1))?;
+            }
+            recorder.dispatch(&self.stage.step, &step, Grid::threads(self.texels))?;
         }
         Ok(())
     }
