@@ -129,7 +129,7 @@ impl Job<'_> {
         for theta in LIGHTS {
             let light = nearest(btf.lights(), (theta, 0.0));
             let original = self.original(view, light)?;
-            let found = self.studio.reconstruct(&surface, btf.views()[view], btf.lights()[light], Relief::default(), self.progress)?;
+            let found = self.studio.reconstruct(&surface, btf.views()[view], btf.lights()[light], Relief::measured(), self.progress)?;
             let error = relative_rms(&original, &found);
             let pictures = [difference(&original, &found), difference(&found, &original), found];
             for (row, picture) in rows.iter_mut().zip([original].into_iter().chain(pictures)) {

@@ -80,7 +80,7 @@ fn a_plateau_casts_a_shadow_of_its_height_times_tan(gpu: &Gpu) {
     let surface = upload(gpu, &with_heights(plain(64, 8), plateau(4.0)));
     for theta in [20.0_f64, 50.0, 60.0, 65.0] {
         // Light from the right: the shadow lies to the left of column 20.
-        let picture = reconstruct(gpu, &surface, degrees(0.0, 0.0), degrees(theta, 0.0), Relief::default());
+        let picture = reconstruct(gpu, &surface, degrees(0.0, 0.0), degrees(theta, 0.0), Relief::measured());
         for row in 0..8 {
             let dark = (0..20).filter(|&column| picture[(column, row)][0] == 0.0).count();
             hold("reconstruct: length of a shadow", (dark as f64 - 4.0 * theta.to_radians().tan()).abs(), 1.0);
