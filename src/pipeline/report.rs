@@ -74,7 +74,7 @@ th { font-weight: normal; color: #444; }
 .pictures .label { width: 7rem; padding-right: 0.6rem; overflow-wrap: break-word; text-align: left; vertical-align: middle; }
 .pictures img { width: 100%; height: auto; display: block; }
 img.small { image-rendering: pixelated; }
-.stages td, .stages th { padding: 0.15rem 1rem 0.15rem 0; text-align: right; }
+.stages td, .stages th { padding: 0.15rem 1rem 0.15rem 0; text-align: right; white-space: nowrap; }
 .stages td:first-child, .stages th:first-child, .stages td:last-child, .stages th:last-child { text-align: left; }
 .stages thead th { border-bottom: 1px solid #999; }
 </style>
