@@ -7,13 +7,16 @@
 // A step of the search covers at most this many texels, so that a crossing is missed only where the ray enters and leaves the
 // surface within it.
 const STEP: f32 = 0.5;
-// Bound of the search; steps get longer where it does not suffice (a relief of 16 texels seen at more than 86 degrees).
-const MAX_STEPS: f32 = 512.0;
+// Bound of a search. The view's steps get longer where it does not suffice (a relief of 16 texels seen at more than 86
+// degrees); blockers beyond it, at least 360 texels away, cast no shadow.
+const MAX_STEPS: u32 = 512u;
 // Each halves the bracket: 8 make 1/512 texel of STEP, which a last secant step squares.
 const REFINEMENTS: u32 = 8u;
 // Texel widths that a blocker must stand above the ray to the light. The ray starts on the surface itself, and places rounded
 // to 2^-12 texel (at 4096 texels) on slopes up to 4 err by this much; it shortens no shadow by more than tan(theta)/1000.
 const BIAS: f32 = 0.001;
+// Texels to the nearest blocker; a surface that turns from the light nearer by is left to its own shading.
+const NEAREST: f32 = 0.5;
 // Directions with a cosine below this are taken for the horizon: nothing is seen from there, and no light comes.
 const MIN_COSINE: f32 = 0.001;
 
@@ -27,13 +30,6 @@ struct Cell {
 struct Hit {
     place: vec2<f32>,
     height: f32,
-}
-
-struct Visibility {
-    // 0 or 1: whether nothing stands between the hit and the light's centre
-    hard: f32,
-    // 0 to 1: share of a light of some width that is seen
-    soft: f32,
 }
 
 fn cell_at(place: vec2<f32>) -> Cell {
@@ -65,7 +61,7 @@ fn run_of(direction: vec3<f32>) -> vec2<f32> {
 }
 
 fn march_steps(texels: f32) -> u32 {
-    return u32(clamp(ceil(texels / STEP), 1.0, MAX_STEPS));
+    return u32(clamp(ceil(texels / STEP), 1.0, f32(MAX_STEPS)));
 }
 
 // Where the view ray through `base` (a place on z = 0) first meets the surface.
@@ -104,24 +100,33 @@ fn first_hit(base: vec2<f32>) -> Hit {
     return Hit(place, height_at(place));
 }
 
-// How much of the light reaches a hit. A blocker that stands e above the ray at path length d covers e/(d tan(width)) of a light
-// of that angular width; the largest cover counts (Tatarchuk 2006: heights above the ray, weighted by nearness).
-fn visibility(hit: Hit) -> Visibility {
+// Share of the light that a hit sees. A blocker that stands e above the ray at path length d covers e/(d tan(width)) of a light
+// of that angular width; the largest cover counts (Tatarchuk 2006: heights above the ray, weighted by nearness). Between two
+// grid lines the surface hardly bends, so the cover is largest where the ray crosses one: crossings are where it is looked up,
+// which moves with the hit and leaves no steps in the edge of a shadow.
+fn visibility(hit: Hit) -> f32 {
     if scene.light.z < MIN_COSINE {
-        return Visibility(0.0, 0.0);
+        return 0.0;
     }
     if scene.shadow == 0u {
-        return Visibility(1.0, 1.0);
+        return 1.0;
     }
     let run = run_of(scene.light.xyz);
     let rise = scene.highest - hit.height;
-    let steps = march_steps(rise * length(run));
+    // Height that the ray gains from one column, one row to the next; a light at the zenith crosses none.
+    let apart = 1.0 / max(abs(run), vec2(1e-6));
+    var gained = NEAREST / max(length(run), 1e-6);
+    // How far the place is along the ray from its last column and row.
+    let start = hit.place + gained * run;
+    let passed = select(ceil(start) - start, start - floor(start), run >= vec2(0.0));
+    var next = gained + (1.0 - passed) * apart;
     var cover = 0.0;
-    // Nothing stands above the ray at its last place, the highest.
-    for (var step = 1u; step < steps && cover < 1.0; step++) {
-        let gained = rise * (f32(step) / f32(steps));
+    // Nothing stands above the ray where it has gained the highest place.
+    for (var crossing = 0u; crossing < MAX_STEPS && gained < rise && cover < 1.0; crossing++) {
         let excess = height_at(hit.place + gained * run) - (hit.height + gained) - BIAS;
         cover = max(cover, excess * scene.light.z / (gained * scene.penumbra));
+        gained = min(next.x, next.y);
+        next += select(vec2(0.0), apart, next <= vec2(gained));
     }
-    return Visibility(select(1.0, 0.0, cover > 0.0), 1.0 - min(cover, 1.0));
+    return 1.0 - min(cover, 1.0);
 }

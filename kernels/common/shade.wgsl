@@ -24,26 +24,30 @@ fn painted_radiance(texel: u32) -> vec3<f32> {
     return entering * painted[texel].rgb * cos_light + ggx_specular(normal, view, light, scene.roughness, scene.f0);
 }
 
-// One texel's radiance, unpainted and painted mixed by coverage, each under its own kind of shadow.
-fn texel_radiance(texel: u32, light: Visibility) -> vec3<f32> {
+// One texel's radiance in full light, unpainted and painted mixed by coverage.
+fn texel_radiance(texel: u32) -> vec3<f32> {
     let coverage = painted[texel].w;
     var radiance = vec3(0.0);
     if coverage < 1.0 {
-        radiance += (1.0 - coverage) * light.hard * unpainted_radiance(texel);
+        radiance += (1.0 - coverage) * unpainted_radiance(texel);
     }
     if coverage > 0.0 {
-        radiance += coverage * light.soft * painted_radiance(texel);
+        radiance += coverage * painted_radiance(texel);
     }
     return radiance;
 }
 
-// Radiance of the view ray through `base`: bilinear between the four texels around its hit.
+// Radiance of the view ray through `base`: bilinear between the four texels around its hit, times the share of
+// the light seen there.
 fn radiance_at(base: vec2<f32>) -> vec3<f32> {
     if scene.view.z < MIN_COSINE {
         return vec3(0.0);
     }
     let hit = first_hit(base);
-    let light = visibility(hit);
+    let visible = visibility(hit);
+    if visible == 0.0 {
+        return vec3(0.0);
+    }
     let cell = cell_at(hit.place);
     let right = cell.fraction.x;
     let lower = cell.fraction.y;
@@ -51,8 +55,8 @@ fn radiance_at(base: vec2<f32>) -> vec3<f32> {
     var radiance = vec3(0.0);
     for (var corner = 0u; corner < 4u; corner++) {
         if weights[corner] > 0.0 {
-            radiance += weights[corner] * texel_radiance(cell.texels[corner], light);
+            radiance += weights[corner] * texel_radiance(cell.texels[corner]);
         }
     }
-    return radiance;
+    return visible * radiance;
 }

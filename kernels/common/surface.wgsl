@@ -13,7 +13,7 @@ struct Scene {
     // bounds of `heights`
     lowest: f32,
     highest: f32,
-    // tangent of the light's angular width, for painted parts
+    // tangent of the light's angular width
     penumbra: f32,
     // the coat's Fresnel reflectance at normal incidence and its GGX alpha
     f0: f32,

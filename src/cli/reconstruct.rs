@@ -36,7 +36,7 @@ impl Reconstruct {
         let session = session.open()?;
         let studio = Studio::new(&session.gpu)?;
         let surface = studio.surface(&material, None, &session.progress)?;
-        let picture = studio.reconstruct(&surface, self.view, self.light, Relief::default(), &session.progress)?;
+        let picture = studio.reconstruct(&surface, self.view, self.light, Relief::measured(), &session.progress)?;
         io::picture::write(&self.output, &picture)?;
         session.finish()?;
         Ok(())

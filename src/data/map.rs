@@ -49,6 +49,15 @@ impl<T> Map<T> {
         Map { width: self.width, height: self.height, values: self.values.iter().map(f).collect() }
     }
 
+    /// The map laid side by side with itself, `columns` times to the right and `rows` times downwards.
+    #[must_use]
+    pub fn repeated(&self, columns: usize, rows: usize) -> Self
+    where
+        T: Clone,
+    {
+        Self::from_fn(self.width * columns, self.height * rows, |column, row| self[(column % self.width, row % self.height)].clone())
+    }
+
     /// Columns.
     #[must_use]
     pub fn width(&self) -> usize {

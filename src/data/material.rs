@@ -97,6 +97,30 @@ impl Material {
         [self.height.width(), self.height.height()]
     }
 
+    /// The material laid side by side with itself, `columns` times to the right and `rows` times downwards: a larger piece of
+    /// one that repeats.
+    #[must_use]
+    pub fn repeated(&self, columns: usize, rows: usize) -> Self {
+        Self {
+            height: self.height.repeated(columns, rows),
+            normal: self.normal.repeated(columns, rows),
+            normal_measured: self.normal_measured.repeated(columns, rows),
+            albedo: self.albedo.repeated(columns, rows),
+            svbrdf: Svbrdf {
+                diffuse: self.svbrdf.diffuse.repeated(columns, rows),
+                specular: self.svbrdf.specular.repeated(columns, rows),
+                lobe: self.svbrdf.lobe.repeated(columns, rows),
+            },
+            fit: Fit {
+                objective_start: self.fit.objective_start.repeated(columns, rows),
+                objective: self.fit.objective.repeated(columns, rows),
+                iterations: self.fit.iterations.repeated(columns, rows),
+                status: self.fit.status.repeated(columns, rows),
+            },
+            provenance: self.provenance.clone(),
+        }
+    }
+
     /// Checks that every map covers the same plane.
     ///
     /// # Errors

@@ -26,16 +26,20 @@ const LIGHTS: [f64; 5] = [0.0, 17.0, 32.0, 50.0, 65.0];
 /// (θ, φ) in degrees: straight from above, and obliquely from the front.
 const VIEWS: [(f64, f64); 2] = [(0.0, 0.0), (50.0, 257.0)];
 
-/// Paints and the thicknesses that each is shown at.
-const PAINTS: [(&str, [f64; 2]); 2] = [("watercolour/cadmium yellow", [0.3, 1.5]), ("watercolour/cerulean blue", [0.3, 1.5])];
+/// Paints and the thicknesses that each is shown at: a glaze that the weave shows through, and a coat that hides it.
+const PAINTS: [(&str, [f64; 2]); 2] = [("watercolour/hansa yellow", [0.5, 4.0]), ("watercolour/cerulean blue", [0.5, 4.0])];
 /// Where the paint lies.
-const PATTERN: Pattern = Pattern::Splash { seed: 7 };
-/// Height in texel widths of a coat of thickness 1.
-const RELIEF: f64 = 1.0;
-/// (θ, φ) in degrees of the painted pictures' view and light, and their size in pixels.
-const PAINTED_VIEW: (f64, f64) = (40.0, 270.0);
-const PAINTED_LIGHT: (f64, f64) = (50.0, 135.0);
-const PAINTED_SIZE: [u32; 2] = [512, 512];
+const PATTERN: Pattern = Pattern::Splash { seed: 3 };
+/// Height in texel widths of a coat of thickness 1: the thick coats rise by half of what the yarns do.
+const RELIEF: f64 = 0.15;
+/// GGX α of the paint, fairly glossy.
+const ROUGHNESS: f64 = 0.2;
+/// How many times the sample lies side by side below the paint, along each edge.
+const PIECES: usize = 2;
+/// (θ, φ) in degrees of the painted pictures' view and light, almost opposite each other, and their size in pixels.
+const PAINTED_VIEW: (f64, f64) = (35.0, 270.0);
+const PAINTED_LIGHT: (f64, f64) = (50.0, 105.0);
+const PAINTED_SIZE: [u32; 2] = [512, 424];
 
 /// Runs the demo; writes the report, its pictures and the material into `folder`, which must exist.
 ///
@@ -99,7 +103,7 @@ impl Job<'_> {
             title: "What was measured and what was recovered",
             caption: format!(
                 "Left, the photograph from the view {} under the light {}. Middle, normals, (x, y, z) from −1 … 1 as red, green and blue. \
-                 Right, height, from {lowest:.2} texel widths (black) to {highest:.2} (white).",
+                 Right, height, from {lowest:.2} (black) to {highest:.2} texel widths (white).",
                 self.source.btf().views()[view],
                 self.source.btf().lights()[light]
             ),
@@ -129,7 +133,7 @@ impl Job<'_> {
         for theta in LIGHTS {
             let light = nearest(btf.lights(), (theta, 0.0));
             let original = self.original(view, light)?;
-            let found = self.studio.reconstruct(&surface, btf.views()[view], btf.lights()[light], Relief::default(), self.progress)?;
+            let found = self.studio.reconstruct(&surface, btf.views()[view], btf.lights()[light], Relief::measured(), self.progress)?;
             let error = relative_rms(&original, &found);
             let pictures = [difference(&original, &found), difference(&found, &original), found];
             for (row, picture) in rows.iter_mut().zip([original].into_iter().chain(pictures)) {
@@ -145,7 +149,8 @@ impl Job<'_> {
             title,
             caption: format!(
                 "View {}; the light stands at the right. Positive difference is what the original has more than the reconstruction, negative \
-                 difference what it has less. The relative RMS is that of the difference over that of the original, in linear light.",
+                 difference what it has less, in linear light and not amplified. The relative RMS is that of the difference over that of the \
+                 original, in linear light too.",
                 btf.views()[view]
             ),
             columns,
@@ -157,8 +162,9 @@ impl Job<'_> {
     fn painted(&self) -> Result<Figure, PipelineError> {
         let [view, light] = [PAINTED_VIEW, PAINTED_LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
         let shot = PlaneView::new(view, light, PAINTED_SIZE);
+        let cloth = self.material.repeated(PIECES, PIECES);
         let render = |painting: Option<&Painting>| {
-            let surface = self.studio.surface(self.material, painting, self.progress)?;
+            let surface = self.studio.surface(&cloth, painting, self.progress)?;
             self.studio.render(&surface, &shot, Relief::default(), self.progress)
         };
         let bare = render(None)?;
@@ -168,7 +174,7 @@ impl Job<'_> {
             for thickness in thicknesses {
                 // The library holds the paints named above.
                 let Ok(pigment) = pigments::find(name) else { continue };
-                let layer = Layer::new(Paint::from(pigment), thickness, RELIEF * thickness);
+                let layer = Layer { roughness: ROUGHNESS, ..Layer::new(Paint::from(pigment), thickness, RELIEF * thickness) };
                 cells.push(Cell { picture: render(Some(&Painting { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
             }
             rows.push(Row { label: name, cells });
@@ -177,7 +183,8 @@ impl Job<'_> {
             stem: "painted",
             title: "Bare and painted",
             caption: format!(
-                "View {view}, light {light}. The paint is laid on by Kubelka and Munk's theory, raises the surface and has a highlight of its own."
+                "View {view}, light {light}; {PIECES} by {PIECES} pieces of the sample. The paint is laid on by Kubelka and Munk's theory: a glaze takes \
+                 light from the weave, which still shows, and a thick coat hides it. It raises the surface and has a highlight of its own."
             ),
             columns: ["bare", "thin coat", "thick coat"].map(String::from).to_vec(),
             rows,

@@ -71,10 +71,10 @@ table { border-collapse: collapse; }
 th { font-weight: normal; color: #444; }
 .pictures { width: 100%; table-layout: fixed; }
 .pictures td, .pictures th { padding: 0.2rem; text-align: center; vertical-align: top; }
-.pictures .label { width: 7rem; overflow-wrap: anywhere; text-align: left; vertical-align: middle; }
+.pictures .label { width: 7rem; padding-right: 0.6rem; overflow-wrap: break-word; text-align: left; vertical-align: middle; }
 .pictures img { width: 100%; height: auto; display: block; }
 img.small { image-rendering: pixelated; }
-.stages td, .stages th { padding: 0.15rem 1rem 0.15rem 0; text-align: right; }
+.stages td, .stages th { padding: 0.15rem 1rem 0.15rem 0; text-align: right; white-space: nowrap; }
 .stages td:first-child, .stages th:first-child, .stages td:last-child, .stages th:last-child { text-align: left; }
 .stages thead th { border-bottom: 1px solid #999; }
 </style>
@@ -107,7 +107,7 @@ impl<'f> Report<'f> {
         for (row_number, row) in rows.iter().enumerate() {
             table.push_str("<tr>");
             if labelled {
-                table.push_str(&format!("<th class=\"label\">{}</th>", escape(row.label)));
+                table.push_str(&format!("<th class=\"label\">{}</th>", escape(row.label).replace('/', "/<wbr>")));
             }
             for (column, cell) in row.cells.iter().enumerate() {
                 let file = format!("{stem}_{row_number}_{column}.png");

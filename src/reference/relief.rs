@@ -100,16 +100,8 @@ impl<'a> HeightField<'a> {
         (place, self.at(place))
     }
 
-    /// Whether anything stands between a point of the field and the light.
-    pub(super) fn is_lit(&self, place: [f64; 2], height: f64, light: DVec3) -> bool {
-        let run = run(light);
-        let start = [place[0] - height * run[0], place[1] - height * run[1]];
-        // The point itself is on the ray: only what is above by more than rounding blocks it.
-        !self.stretches(start, run, height, self.highest.max(height)).any(|stretch| stretch.greatest() > 1e-9)
-    }
-
     /// Share of a light of angular width atan(`penumbra`) that a point of the field sees: 1 less the largest
-    /// excess/(path length·penumbra) (Tatarchuk 2006), blockers nearer than half a texel left to the normal's cosine.
+    /// excess/(path length·penumbra) (Tatarchuk 2006), blockers nearer than half a texel left to the surface's own shading.
     pub(super) fn seen_share(&self, place: [f64; 2], height: f64, light: DVec3, penumbra: f64) -> f64 {
         let run = run(light);
         let start = [place[0] - height * run[0], place[1] - height * run[1]];
@@ -146,14 +138,6 @@ impl Stretch {
         };
         zeros.sort_by(f64::total_cmp);
         zeros.into_iter().rev().find(|step| (0.0..=self.high - self.low).contains(step)).map(|step| self.low + step)
-    }
-
-    /// Largest of height minus z.
-    fn greatest(&self) -> f64 {
-        let [_, c1, c2] = self.coefficients;
-        let peak = self.low - c1 / (2.0 * c2);
-        let ends = self.gap(self.low).max(self.gap(self.high));
-        if (self.low..=self.high).contains(&peak) { ends.max(self.gap(peak)) } else { ends }
     }
 
     /// Largest of (height minus z)/(z − `from`), `from` below the stretch.

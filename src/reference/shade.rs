@@ -48,15 +48,14 @@ impl Surface {
             return [0.0; 3];
         }
         let (place, height) = if relief.displace { field.first_hit(base, view) } else { (base, field.at(base)) };
-        let hard = if !relief.shadow || field.is_lit(place, height, light) { 1.0 } else { 0.0 };
-        let soft = if relief.shadow { field.seen_share(place, height, light, relief.penumbra) } else { 1.0 };
+        let visible = if relief.shadow { field.seen_share(place, height, light, relief.penumbra) } else { 1.0 };
         let mut radiance = [0.0; 3];
         for (texel, weight) in field.corners(place) {
             let coverage = self.painted[texel][3];
             let unpainted = self.unpainted(texel, view, light);
             let painted = self.painted(texel, view, light);
             for channel in 0..3 {
-                radiance[channel] += weight * ((1.0 - coverage) * hard * unpainted[channel] + coverage * soft * painted[channel]);
+                radiance[channel] += weight * visible * ((1.0 - coverage) * unpainted[channel] + coverage * painted[channel]);
             }
         }
         radiance

@@ -12,7 +12,7 @@ use crate::support::{
 
 crate::suite! {
     gpu: a_flat_field_is_its_plain_texture, unpainted_texels_know_no_paint, a_mirrored_material_gives_the_mirrored_picture,
-        a_plateau_casts_a_shadow_of_its_height_times_tan, a_plateau_moves_by_its_height_times_tan, hidden_texels_are_not_seen,
+        a_plateau_casts_a_shadow_of_its_height_times_tan, a_wide_light_is_covered_by_excess_over_distance, a_plateau_moves_by_its_height_times_tan, hidden_texels_are_not_seen,
         white_reads_the_cosine, paint_returns_no_more_than_it_gets, nothing_comes_from_below_the_horizon;
 }
 
@@ -80,11 +80,35 @@ fn a_plateau_casts_a_shadow_of_its_height_times_tan(gpu: &Gpu) {
     let surface = upload(gpu, &with_heights(plain(64, 8), plateau(4.0)));
     for theta in [20.0_f64, 50.0, 60.0, 65.0] {
         // Light from the right: the shadow lies to the left of column 20.
-        let picture = reconstruct(gpu, &surface, degrees(0.0, 0.0), degrees(theta, 0.0), Relief::default());
+        let picture = reconstruct(gpu, &surface, degrees(0.0, 0.0), degrees(theta, 0.0), Relief::measured());
         for row in 0..8 {
             let dark = (0..20).filter(|&column| picture[(column, row)][0] == 0.0).count();
             hold("reconstruct: length of a shadow", (dark as f64 - 4.0 * theta.to_radians().tan()).abs(), 1.0);
             assert!((21..64).all(|column| picture[(column, row)][0] > 0.0), "lit ground is dark at {theta}°");
+        }
+    }
+}
+
+/// u texels before a rim that stands h above the ground, under a light at θ of width w, the share (h − u cot θ) sin θ/(u tan w) is
+/// hidden (Tatarchuk 2006), whatever the ground is covered with.
+fn a_wide_light_is_covered_by_excess_over_distance(gpu: &Gpu) {
+    let mut surface = with_heights(plain(64, 8), plateau(4.0));
+    let off = Relief { shadow: false, penumbra: 0.5, ..Relief::default() };
+    for coverage in [0.0, 0.5, 1.0] {
+        surface.painted = Map::from_fn(64, 8, |_, _| [0.8, 0.5, 0.2, coverage]);
+        let uploaded = upload(gpu, &surface);
+        for theta in [30.0_f64, 45.0, 65.0] {
+            let picture = |relief| reconstruct(gpu, &uploaded, degrees(0.0, 0.0), degrees(theta, 0.0), relief);
+            let (lit, shadowed) = (picture(off), picture(Relief { shadow: true, ..off }));
+            let (sine, cosine) = theta.to_radians().sin_cos();
+            let error = (0..19).map(|column| {
+                let ahead = f64::from(20 - column);
+                let hidden = ((4.0 - ahead * cosine / sine) * sine / (ahead * off.penumbra)).clamp(0.0, 1.0);
+                let column = column as usize;
+                (f64::from(shadowed[(column, 4)][0] / lit[(column, 4)][0]) - (1.0 - hidden)).abs()
+            });
+            // The bias of 0.001 texel, two texels from the rim: 0.001 sin θ/(2 · 0.5).
+            hold("reconstruct: share of a wide light", error.fold(0.0, f64::max), 1e-3);
         }
     }
 }
