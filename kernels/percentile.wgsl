@@ -51,11 +51,12 @@ fn next_above(word: u32, bound: u32, smallest: u32) -> u32 {
     return min(smallest, min(above.x, above.y));
 }
 
-// The last octet with whatever follows the last sample replaced by the greatest half pattern, which no number has.
+// The last octet with whatever follows the last sample replaced by 0x7fff, a pattern that no number has and whose key is greatest.
 fn mask_tail(words: vec4<u32>, count: u32) -> vec4<u32> {
     var masked = words;
     for (var i = count; i < 8u; i++) {
-        masked[i / 2u] |= select(0x7fffu, 0x7fff0000u, (i & 1u) == 1u);
+        let shift = 16u * (i & 1u);
+        masked[i / 2u] = (masked[i / 2u] & ~(0xffffu << shift)) | (0x7fffu << shift);
     }
     return masked;
 }

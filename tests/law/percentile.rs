@@ -2,7 +2,7 @@ use overpaint::{gpu::Gpu, stage};
 
 use crate::support::{random::Random, tile};
 
-crate::suite! { gpu: a_tenth_lies_below_the_tenth_percentile, order_does_not_matter; }
+crate::suite! { gpu: a_tenth_lies_below_the_tenth_percentile, order_does_not_matter, what_follows_the_last_sample_does_not_matter; }
 
 fn quantiles(gpu: &Gpu, tile: &stage::Tile, quantile: f64) -> Vec<[f32; 4]> {
     let stage = stage::Percentile::new(gpu).expect("builds");
@@ -32,4 +32,12 @@ fn order_does_not_matter(gpu: &Gpu) {
     let forwards = tile::upload(gpu, 3, samples, |_, sample, _| values[sample]);
     let backwards = tile::upload(gpu, 3, samples, |_, sample, _| values[samples - 1 - sample]);
     assert_eq!(quantiles(gpu, &forwards, 0.1), quantiles(gpu, &backwards, 0.1));
+}
+
+fn what_follows_the_last_sample_does_not_matter(gpu: &Gpu) {
+    for filling in [0.0, 1.0, -1.0, 60_000.0] {
+        let full = tile::upload(gpu, 5, 8, |_, sample, _| if sample < 3 { 10.0 + sample as f64 } else { filling });
+        let tile = stage::Tile { samples: 3, ..full };
+        assert_eq!(quantiles(gpu, &tile, 0.25), [[10.5, 10.5, 10.5, 0.0]; 5]);
+    }
 }

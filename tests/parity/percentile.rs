@@ -2,7 +2,7 @@ use overpaint::{gpu::Gpu, reference, stage};
 
 use crate::support::{hold, random::Random, tile};
 
-crate::suite! { gpu: agrees_with_its_twin, order_statistics_are_exact, ties_and_signs; }
+crate::suite! { gpu: agrees_with_its_twin, order_statistics_are_exact, ties_and_signs, zeros_and_neighbours; }
 
 fn quantiles(gpu: &Gpu, tile: &stage::Tile, quantile: f64) -> Vec<[f32; 4]> {
     let stage = stage::Percentile::new(gpu).expect("builds");
@@ -53,5 +53,18 @@ fn ties_and_signs(gpu: &Gpu) {
         let few = [-2.0, -0.5, 0.0, 0.25, 0.25, 3.0];
         hold("percentile: ties and signs", worst(gpu, 70, samples, 0.1, |_| few[random.below(6)]), 4.8e-7);
         hold("percentile: ties and signs", worst(gpu, 70, samples, 0.83, |_| few[random.below(6)]), 4.8e-7);
+    }
+}
+
+/// Zero, where keys change sign, and ties on a half whose neighbour is the next one, at every phase of the two-bit digits.
+fn zeros_and_neighbours(gpu: &Gpu) {
+    let mut cases = vec![vec![-1.0, 0.0, 0.0, 0.0, 2.0]];
+    for base in 0..4 {
+        cases.push([0, 0, 0, 1, 7].map(|step| half::f16::from_bits(0x3c00 + base + step).to_f64()).to_vec());
+    }
+    for values in cases {
+        for quantile in [0.1, 0.4, 0.5, 0.75, 0.875, 0.9] {
+            hold("percentile: zeros and neighbours", worst(gpu, 3, 5, quantile, |sample| values[sample]), 2.4e-7);
+        }
     }
 }

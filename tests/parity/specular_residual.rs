@@ -2,7 +2,7 @@ use overpaint::{gpu::Gpu, reference, stage};
 
 use crate::support::{hold, random::Random, tile};
 
-crate::suite! { gpu: agrees_with_its_twin; }
+crate::suite! { gpu: agrees_with_its_twin, what_follows_the_last_sample_becomes_zero; }
 
 fn agrees_with_its_twin(gpu: &Gpu) {
     for (samples, texels) in [(1, 1), (7, 63), (8, 64), (9, 65), (81, 500), (1, 64 * 20_000 + 1)] {
@@ -28,5 +28,20 @@ fn agrees_with_its_twin(gpu: &Gpu) {
         }
         // One unit in the last place of a half below 1, 2^-11; the driver may truncate.
         hold("specular_residual", worst, 4.9e-4);
+    }
+}
+
+fn what_follows_the_last_sample_becomes_zero(gpu: &Gpu) {
+    for samples in [1_usize, 3, 5, 9] {
+        let full = tile::upload(gpu, 5, samples.next_multiple_of(8), |_, _, _| 1.0);
+        let reflectance = stage::Tile { samples, ..full };
+        let stage = stage::SpecularResidual::new(gpu).expect("builds");
+        let mut recorder = gpu.recorder();
+        let diffuse = gpu.upload("diffuse", &[[0.25_f32; 4]; 5]).expect("fits");
+        let residual = stage.record(&mut recorder, &reflectance, &diffuse).expect("records");
+        gpu.submit(recorder).wait(gpu).expect("runs");
+        for (index, found) in tile::unpack(&residual.read(gpu).expect("reads"), 5).into_iter().enumerate() {
+            assert_eq!(found, if index / 5 < samples { 0.75 } else { 0.0 });
+        }
     }
 }

@@ -32,6 +32,7 @@ fn agrees_with_its_twin(gpu: &Gpu) {
             let filled = reflectance.octets() * 8;
             let mut worst = 0.0_f64;
             for texel in 0..texels {
+                assert_eq!(found[texel][3].to_bits(), 0);
                 for channel in 0..3 {
                     let residuals: Vec<f64> = (0..samples)
                         .map(|sample| (given[(channel * filled + sample) * texels + texel] - f64::from(diffuse[texel][channel])).max(0.0))

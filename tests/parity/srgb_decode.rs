@@ -2,7 +2,7 @@ use overpaint::{data::OCTET, gpu::Gpu, reference, stage};
 
 use crate::support::{hold, random::Random, tile};
 
-crate::suite! { gpu: agrees_with_its_twin, every_code_decodes; }
+crate::suite! { gpu: agrees_with_its_twin, every_code_decodes, what_follows_the_last_sample_becomes_zero; }
 
 fn decode(gpu: &Gpu, codes: &[u32], samples: usize, texels: usize) -> Vec<f64> {
     let stage = stage::SrgbDecode::new(gpu).expect("builds");
@@ -51,4 +51,9 @@ fn every_code_decodes(gpu: &Gpu) {
     for (code, found) in (0..=255).zip(found) {
         hold("srgb_decode: every code", relative(found, reference::srgb_decode(code)), BOUND);
     }
+}
+
+fn what_follows_the_last_sample_becomes_zero(gpu: &Gpu) {
+    let found = decode(gpu, &[u32::MAX; 16 * 5], 9, 5);
+    assert!(found.iter().enumerate().all(|(index, value)| *value == if index / 5 % 16 < 9 { 1.0 } else { 0.0 }));
 }
