@@ -1,7 +1,7 @@
 // Exact quantile of each texel's reflectance, per channel: the order statistics around rank q(n - 1) and numpy's linear
 // rule between them. Radix select on order-preserving 16-bit keys of the halves, two bits a pass: eight passes of loads
 // that neighbouring threads share, no workgroup memory and no atomics; a ninth finds the upper neighbour.
-// One thread a texel and channel. Twin: reference::percentile (a sort).
+// One thread a texel. Twin: reference::percentile (a sort).
 #import thread
 
 struct Params {
@@ -61,13 +61,7 @@ fn mask_tail(words: vec4<u32>, count: u32) -> vec4<u32> {
     return masked;
 }
 
-@compute @workgroup_size(SIZE)
-fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
-    let texel = thread_index(group, groups, local, SIZE);
-    let channel = group.z;
-    if texel >= params.texels {
-        return;
-    }
+fn quantile(texel: u32, channel: u32) -> f32 {
     let start = channel * params.octets * params.texels + texel;
     let last = params.octets - 1u;
     let tail = params.samples - last * 8u;
@@ -127,8 +121,14 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
             result = lower + (value(above) - lower) * params.fraction;
         }
     }
-    quantiles[texel][channel] = result;
-    if channel == 0u {
-        quantiles[texel].w = 0.0;
+    return result;
+}
+
+@compute @workgroup_size(SIZE)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let texel = thread_index(group, groups, local, SIZE);
+    if texel >= params.texels {
+        return;
     }
+    quantiles[texel] = vec4(quantile(texel, 0u), quantile(texel, 1u), quantile(texel, 2u), 0.0);
 }

@@ -106,6 +106,18 @@ impl Gpu {
         Ok(Buffer { raw, label: label.to_owned(), len: 1, values: PhantomData })
     }
 
+    /// A buffer that no shader binds: for copies, and so held to the size of buffers alone.
+    pub(super) fn transfer<T: GpuValue>(&self, label: &str, len: usize) -> Result<Buffer<T>, GpuError> {
+        let bytes = (len.max(1) * size_of::<T>()) as u64;
+        let limit = self.adapter().max_buffer;
+        if bytes > limit {
+            let adapter = self.adapter().name.clone();
+            return Err(GpuError::TooLarge { label: label.to_owned(), bytes, adapter, limit, limit_name: "maxBufferSize" });
+        }
+        let raw = self.allocate(label, bytes, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC, false)?;
+        Ok(Buffer { raw, label: label.to_owned(), len: len.max(1), values: PhantomData })
+    }
+
     fn array<T: GpuValue>(&self, label: &str, len: usize, poison: bool) -> Result<Buffer<T>, GpuError> {
         let bytes = (len.max(1) * size_of::<T>()) as u64;
         let limit = self.max_array_bytes();

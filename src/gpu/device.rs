@@ -83,7 +83,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the first adapter, or the first whose name contains `name` (case does not matter).
+    /// Opens the first adapter, or the first whose "name (backend)" contains `name` (case does not matter).
     ///
     /// The device is opened with all the limits of the adapter; nothing may be taken for granted above them.
     ///
@@ -95,7 +95,11 @@ impl Gpu {
             return Err(GpuError::NoAdapter);
         }
         let wanted = name.unwrap_or_default().to_lowercase();
-        let Some(adapter) = adapters.iter().find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted)) else {
+        let described = |adapter: &wgpu::Adapter| {
+            let info = adapter.get_info();
+            format!("{} ({})", info.name, info.backend).to_lowercase()
+        };
+        let Some(adapter) = adapters.iter().find(|adapter| described(adapter).contains(&wanted)) else {
             let present: Vec<_> = adapters.iter().map(|adapter| format!("\"{}\"", adapter.get_info().name)).collect();
             return Err(GpuError::UnknownAdapter { wanted: name.unwrap_or_default().to_owned(), present: present.join(", ") });
         };

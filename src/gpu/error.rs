@@ -29,7 +29,7 @@ pub enum GpuError {
     /// A buffer is larger than the adapter allows.
     #[error(
         "buffer \"{label}\" needs {bytes} bytes, but adapter \"{adapter}\" allows {limit} ({limit_name}). \
-         Work on a smaller region or on an adapter with larger limits"
+         Use an adapter with larger limits (`overpaint adapters` lists them) or crop the images"
     )]
     TooLarge {
         /// The buffer's name.
@@ -43,8 +43,24 @@ pub enum GpuError {
         /// WebGPU's name of the limit.
         limit_name: &'static str,
     },
+    /// A picture is empty or larger than the adapter can draw.
+    #[error(
+        "a picture of {width} x {height} pixels was asked for, but adapter \"{adapter}\" draws 1 to {limit} either way. Choose another size"
+    )]
+    PictureSize {
+        /// Columns asked for.
+        width: u32,
+        /// Rows asked for.
+        height: u32,
+        /// The adapter's name.
+        adapter: String,
+        /// Most columns or rows.
+        limit: u32,
+    },
     /// A grid of workgroups exceeds what a dispatch can hold.
-    #[error("kernel \"{kernel}\" needs {groups} workgroups, but a dispatch holds {limit}. Work on a smaller tile")]
+    #[error(
+        "kernel \"{kernel}\" needs {groups} workgroups, but a dispatch holds {limit}. Use an adapter with larger limits or crop the images"
+    )]
     GridTooLarge {
         /// The kernel's name.
         kernel: &'static str,
@@ -55,7 +71,7 @@ pub enum GpuError {
     },
     /// The adapter ran out of memory.
     #[error(
-        "the adapter has no memory left for buffer \"{label}\" of {bytes} bytes. Close other programs that use the GPU, or work on a smaller region"
+        "the adapter has no memory left for buffer \"{label}\" of {bytes} bytes. Close other programs that use the GPU, or crop the images"
     )]
     OutOfMemory {
         /// The buffer's name.

@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use super::{Bind, Gpu, GpuError, Grid, Kernel, Raster, Target, buffer};
 
-/// Queries in a set; WebGPU guarantees 4096, two a pass.
-const MAX_QUERIES: u32 = 4096;
+/// Passes in one command buffer. A longer recording goes to the adapter in pieces, so that no single piece looks to a driver's
+/// watchdog like an adapter that hangs.
+const PASSES_A_PIECE: u32 = 32;
 
 /// Time that one pass took on the adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,22 +17,27 @@ pub struct PassTime {
     pub gpu: Duration,
 }
 
-/// Commands being recorded. Nothing runs before it is submitted.
+/// Commands being recorded. They run, at the latest, when it is submitted.
 #[derive(Debug)]
 pub struct Recorder<'g> {
     gpu: &'g Gpu,
     encoder: wgpu::CommandEncoder,
     queries: Option<wgpu::QuerySet>,
     passes: Vec<&'static str>,
+    pieces: Vec<Piece>,
+}
+
+/// A submitted command buffer: its passes and, if they are timed, the buffer that their two time stamps each end up in.
+#[derive(Debug)]
+struct Piece {
+    passes: Vec<&'static str>,
+    stamps: Option<wgpu::Buffer>,
 }
 
 impl<'g> Recorder<'g> {
     pub(super) fn new(gpu: &'g Gpu) -> Self {
-        let queries = gpu.adapter().timestamps.then(|| {
-            gpu.device.create_query_set(&wgpu::QuerySetDescriptor { label: None, ty: wgpu::QueryType::Timestamp, count: MAX_QUERIES })
-        });
         let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        Self { gpu, encoder, queries, passes: Vec::new() }
+        Self { gpu, encoder, queries: query_set(gpu), passes: Vec::new(), pieces: Vec::new() }
     }
 
     /// The device that the commands are for.
@@ -40,12 +46,14 @@ impl<'g> Recorder<'g> {
         self.gpu
     }
 
-    /// The query set and first index for the next pass; none once the set is full.
-    fn next_query(&mut self, pass: &'static str) -> Option<(&wgpu::QuerySet, u32)> {
-        let first = u32::try_from(self.passes.len()).unwrap_or(u32::MAX).saturating_mul(2);
-        let set = self.queries.as_ref().filter(|_| first < MAX_QUERIES)?;
+    /// Makes room for a pass; returns the query set and the index of its first time stamp.
+    fn next_pass(&mut self, pass: &'static str) -> Option<(wgpu::QuerySet, u32)> {
+        if self.passes.len() >= PASSES_A_PIECE as usize {
+            self.submit_piece();
+        }
+        let first = 2 * u32::try_from(self.passes.len()).unwrap_or(u32::MAX);
         self.passes.push(pass);
-        Some((set, first))
+        self.queries.clone().map(|set| (set, first))
     }
 
     /// Records one dispatch.
@@ -58,7 +66,7 @@ impl<'g> Recorder<'g> {
     pub fn dispatch(&mut self, kernel: &Kernel, binds: &[Bind<'_>], grid: Grid) -> Result<(), GpuError> {
         let [x, y, z] = kernel.groups(grid)?;
         let group = kernel.bindings.group(self.gpu, binds);
-        let query = self.next_query(kernel.name()).map(|(set, first)| (set.clone(), first));
+        let query = self.next_pass(kernel.name());
         let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(kernel.name()),
             timestamp_writes: query.as_ref().map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
@@ -79,74 +87,99 @@ impl<'g> Recorder<'g> {
     /// If the bindings do not fit the render pass: the host's bug.
     pub fn draw(&mut self, raster: &Raster, binds: &[Bind<'_>], vertices: u32, target: &Target) {
         let group = raster.bindings.group(self.gpu, binds);
-        let query = self.next_query(raster.name()).map(|(set, first)| (set.clone(), first));
-        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(raster.name()),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &target.view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
-            })],
-            timestamp_writes: query.as_ref().map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
-                query_set,
-                beginning_of_pass_write_index: Some(*first),
-                end_of_pass_write_index: Some(first + 1),
-            }),
-            ..Default::default()
-        });
-        pass.set_pipeline(&raster.pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.draw(0..vertices, 0..1);
+        for (index, [top, rows]) in target.bands().enumerate() {
+            let query = self.next_pass(raster.name());
+            let load = if index == 0 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
+            let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(raster.name()),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &target.view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+                })],
+                timestamp_writes: query.as_ref().map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
+                    query_set,
+                    beginning_of_pass_write_index: Some(*first),
+                    end_of_pass_write_index: Some(first + 1),
+                }),
+                ..Default::default()
+            });
+            pass.set_pipeline(&raster.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.set_scissor_rect(0, top, target.width(), rows);
+            pass.draw(0..vertices, 0..1);
+            drop(pass);
+            // Each band is a piece of its own: one may keep a slow adapter busy for long.
+            self.submit_piece();
+        }
     }
 
     pub(super) fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
         &mut self.encoder
     }
 
-    pub(super) fn submit(mut self) -> Submission {
-        let count = u32::try_from(self.passes.len()).unwrap_or(u32::MAX).saturating_mul(2);
-        let resolved = self.queries.as_ref().filter(|_| count > 0).and_then(|queries| {
+    /// Submits what has been recorded since the last piece.
+    fn submit_piece(&mut self) {
+        let passes = std::mem::take(&mut self.passes);
+        let fresh = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = std::mem::replace(&mut self.encoder, fresh);
+        let queries = if passes.is_empty() { None } else { std::mem::replace(&mut self.queries, query_set(self.gpu)) };
+        let stamps = queries.and_then(|queries| {
+            let count = 2 * u32::try_from(passes.len()).ok()?;
             let bytes = u64::from(count) * u64::from(wgpu::QUERY_SIZE);
             let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-            let resolve = self.gpu.allocate("timestamps", bytes, usage, false).ok()?;
+            let resolve = self.gpu.allocate("time stamps", bytes, usage, false).ok()?;
             let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
-            let staging = self.gpu.allocate("timestamps read back", bytes, usage, false).ok()?;
-            self.encoder.resolve_query_set(queries, 0..count, &resolve, 0);
-            self.encoder.copy_buffer_to_buffer(&resolve, 0, &staging, 0, bytes);
-            Some(staging)
+            let stamps = self.gpu.allocate("time stamps read back", bytes, usage, false).ok()?;
+            encoder.resolve_query_set(&queries, 0..count, &resolve, 0);
+            encoder.copy_buffer_to_buffer(&resolve, 0, &stamps, 0, bytes);
+            Some(stamps)
         });
-        self.gpu.queue.submit([self.encoder.finish()]);
-        Submission { resolved, passes: self.passes }
+        self.gpu.queue.submit([encoder.finish()]);
+        self.pieces.push(Piece { passes, stamps });
     }
+
+    pub(super) fn submit(mut self) -> Submission {
+        self.submit_piece();
+        Submission { pieces: self.pieces }
+    }
+}
+
+/// Two time stamps for each pass of a piece, where the adapter has them.
+fn query_set(gpu: &Gpu) -> Option<wgpu::QuerySet> {
+    gpu.adapter().timestamps.then(|| {
+        let count = 2 * PASSES_A_PIECE;
+        gpu.device.create_query_set(&wgpu::QuerySetDescriptor { label: None, ty: wgpu::QueryType::Timestamp, count })
+    })
 }
 
 /// Submitted commands.
 #[derive(Debug)]
 #[must_use = "wait for it, or drop it by name, so that a lost device is noticed"]
 pub struct Submission {
-    resolved: Option<wgpu::Buffer>,
-    passes: Vec<&'static str>,
+    pieces: Vec<Piece>,
 }
 
 impl Submission {
-    /// Blocks until the commands have run; returns each pass's time, or none if the adapter cannot tell.
+    /// Blocks until the commands have run; returns each pass's time, or none at all if the adapter cannot tell.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device stopped.
     pub fn wait(self, gpu: &Gpu) -> Result<Vec<PassTime>, GpuError> {
-        let Some(staging) = self.resolved else {
-            gpu.wait()?;
-            return Ok(Vec::new());
-        };
-        let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&buffer::map(gpu, &staging)?);
+        gpu.wait()?;
         let period = f64::from(gpu.queue.get_timestamp_period());
-        let times = self.passes.into_iter().zip(ticks.chunks_exact(2)).map(|(pass, ends)| PassTime {
-            pass,
-            // Drivers may let the counter wrap or step back between passes; such a pass counts as zero.
-            #[expect(clippy::cast_precision_loss, reason = "a pass shorter than 2^53 ticks")]
-            gpu: Duration::from_secs_f64(ends[1].saturating_sub(ends[0]) as f64 * period * 1e-9),
-        });
-        Ok(times.collect())
+        let mut times = Vec::new();
+        for Piece { passes, stamps } in self.pieces.into_iter().filter(|piece| !piece.passes.is_empty()) {
+            let Some(stamps) = stamps else { return Ok(Vec::new()) };
+            let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&buffer::map(gpu, &stamps)?);
+            times.extend(passes.into_iter().zip(ticks.chunks_exact(2)).map(|(pass, ends)| PassTime {
+                pass,
+                // Drivers may let the counter wrap or step back between passes; such a pass counts as zero.
+                #[expect(clippy::cast_precision_loss, reason = "a pass shorter than 2^53 ticks")]
+                gpu: Duration::from_secs_f64(ends[1].saturating_sub(ends[0]) as f64 * period * 1e-9),
+            }));
+        }
+        Ok(times)
     }
 }

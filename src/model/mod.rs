@@ -22,4 +22,4 @@ pub use paint::{Layer, Paint, PaintError};
 pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;
 pub use relief::Relief;
-pub use settings::{FitSettings, SpecularScale};
+pub use settings::{FitSettings, SettingsError, SpecularScale};

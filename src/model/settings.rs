@@ -62,3 +62,44 @@ impl Default for FitSettings {
         }
     }
 }
+
+/// A setting that no stage can work with.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{setting} is {found}; it must be {expected}")]
+pub struct SettingsError {
+    /// Name of the setting.
+    pub setting: &'static str,
+    /// What was given.
+    pub found: String,
+    /// What is possible.
+    pub expected: &'static str,
+}
+
+impl FitSettings {
+    /// Checks that every setting is one that single precision can work with.
+    ///
+    /// # Errors
+    /// [`SettingsError`] for the first that is not.
+    pub fn checked(&self) -> Result<(), SettingsError> {
+        let [least, greatest] = self.exponents;
+        let checks = [
+            ("max_slope", format!("{}", self.max_slope), (1e-3..=1e3).contains(&self.max_slope), "from 0.001 to 1000"),
+            ("min_cos_light", format!("{}", self.min_cos_light), (1e-3..=1.0).contains(&self.min_cos_light), "from 0.001 to 1"),
+            ("diffuse_quantile", format!("{}", self.diffuse_quantile), (0.0..=1.0).contains(&self.diffuse_quantile), "from 0 to 1"),
+            ("max_iterations", format!("{}", self.max_iterations), (1..=10_000).contains(&self.max_iterations), "from 1 to 10000"),
+            ("tolerance", format!("{}", self.tolerance), (0.0..1.0).contains(&self.tolerance), "at least 0 and below 1"),
+            // C = k A^(1/n) leaves single precision below, and rounding of a base near 1 grows n times above.
+            (
+                "exponents",
+                format!("{least},{greatest}"),
+                0.1 <= least && least <= greatest && greatest <= 1e4,
+                "two numbers from 0.1 to 10000, the smaller first",
+            ),
+            ("min_lobe", format!("{}", self.min_lobe), (1e-6..1.0).contains(&self.min_lobe), "at least 1e-6 and below 1"),
+        ];
+        match checks.into_iter().find(|(_, _, holds, _)| !holds) {
+            Some((setting, found, _, expected)) => Err(SettingsError { setting, found, expected }),
+            None => Ok(()),
+        }
+    }
+}

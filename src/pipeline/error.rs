@@ -1,6 +1,12 @@
 //! Errors of a pipeline.
 
-use crate::{data::ShapeError, gpu::GpuError, io::IoError, stage::StageError};
+use crate::{
+    data::ShapeError,
+    gpu::GpuError,
+    io::IoError,
+    model::{PaintError, PatternError, SettingsError},
+    stage::StageError,
+};
 
 /// What can go wrong while stages are chained.
 #[derive(Debug, thiserror::Error)]
@@ -9,10 +15,19 @@ pub enum PipelineError {
     /// An adapter's error.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// A setting that no stage can work with.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// A layer of paint that no stage can work with.
+    #[error(transparent)]
+    Paint(#[from] PaintError),
+    /// A pattern that no stage can work with.
+    #[error(transparent)]
+    Pattern(#[from] PatternError),
     /// A stage refused its input.
     #[error(transparent)]
     Stage(#[from] StageError),
-    /// The source could not be read.
+    /// A file could not be read or written.
     #[error(transparent)]
     Source(#[from] IoError),
     /// A map came back in another shape than it was asked for: a bug of this program.

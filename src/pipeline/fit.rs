@@ -1,6 +1,6 @@
 //! A source in, a material out.
 
-use super::{PipelineError, Progress, geometry, reflectance};
+use super::{Memory, PipelineError, Progress, geometry, reflectance};
 use crate::{
     data::{Material, Provenance},
     gpu::Gpu,
@@ -8,15 +8,27 @@ use crate::{
     model::FitSettings,
 };
 
+/// Recovers height, normals and per-texel reflectance of a source, within the default [`Memory`]; see [`fit_within`].
+///
+/// # Errors
+/// [`PipelineError`] if the source cannot be read, has too few lights, a setting is out of range, or the adapter fails.
+pub fn fit(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Progress) -> Result<Material, PipelineError> {
+    fit_within(gpu, source, settings, Memory::default(), progress)
+}
+
 /// Recovers height, normals and per-texel reflectance of a source.
 ///
-/// Works in tiles sized from the adapter's limits, on images decoded once for as many tiles as 1 GiB of codes holds.
+/// Works in tiles sized from the adapter's limits and `memory`; the result does not depend on them. Images are decoded once for as many
+/// tiles as the host holds, those of the zenith view once more.
 ///
 /// # Errors
 /// [`PipelineError`] if the source cannot be read, has too few lights, or the adapter fails.
-pub fn fit(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Progress) -> Result<Material, PipelineError> {
-    let geometry = geometry::recover(gpu, source, settings, progress)?;
-    let (svbrdf, fit) = reflectance::recover(gpu, source, settings, progress)?;
+pub fn fit_within(
+    gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, progress: &Progress,
+) -> Result<Material, PipelineError> {
+    settings.checked()?;
+    let geometry = geometry::recover(gpu, source, settings, memory, progress)?;
+    let (svbrdf, fit) = reflectance::recover(gpu, source, settings, memory, progress)?;
     let btf = source.btf();
     let material = Material {
         height: geometry.height,

@@ -2,7 +2,7 @@
 
 use super::{
     PipelineError, Progress,
-    tiles::{for_each_tile, run},
+    tiles::{Memory, for_each_tile, run},
 };
 use crate::{
     data::{Direction, Map},
@@ -24,14 +24,16 @@ pub(super) struct Geometry {
     pub albedo: Map<f32>,
 }
 
-pub(super) fn recover(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Progress) -> Result<Geometry, PipelineError> {
+pub(super) fn recover(
+    gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, progress: &Progress,
+) -> Result<Geometry, PipelineError> {
     let btf = source.btf();
     let samples = btf.zenith_samples();
     let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
     let decode = stage::SrgbDecode::new(gpu)?;
     let stereo = stage::PhotometricStereo::new(gpu)?;
     let mut measured: Vec<[f32; 4]> = Vec::with_capacity(btf.texels());
-    for_each_tile(gpu, source, &samples, progress, |texels, codes| {
+    for_each_tile(gpu, source, &samples, memory, progress, |texels, codes| {
         let size = [texels.len(), samples.len()];
         let tile = run(gpu, progress, "srgb_decode", size, |recorder| {
             let codes = gpu.upload("codes", codes)?;

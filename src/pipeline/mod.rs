@@ -12,6 +12,7 @@ mod tiles;
 
 pub use demo::{REPORT, demo};
 pub use error::PipelineError;
-pub use fit::fit;
+pub use fit::{fit, fit_within};
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
 pub use studio::{Painting, Studio};
+pub use tiles::Memory;

@@ -2,7 +2,7 @@
 
 use super::{
     PipelineError, Progress,
-    tiles::{for_each_tile, run},
+    tiles::{Memory, for_each_tile, run},
 };
 use crate::{
     data::{Fit, Map, Samples, Svbrdf},
@@ -13,7 +13,9 @@ use crate::{
 };
 
 /// ρ_d, ρ_s and lobe of every texel, and how the fit went.
-pub(super) fn recover(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Progress) -> Result<(Svbrdf, Fit), PipelineError> {
+pub(super) fn recover(
+    gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, progress: &Progress,
+) -> Result<(Svbrdf, Fit), PipelineError> {
     let btf = source.btf();
     let lit: Vec<usize> = (0..btf.pairs().len()).filter(|&sample| btf.directions(sample).1.theta.cos() >= settings.min_cos_light).collect();
     if lit.is_empty() {
@@ -32,7 +34,7 @@ pub(super) fn recover(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, pr
     let specular_scale = stage::SpecularScale::new(gpu)?;
 
     let mut found = Found::default();
-    for_each_tile(gpu, source, &lit, progress, |texels, codes| {
+    for_each_tile(gpu, source, &lit, memory, progress, |texels, codes| {
         let texels = texels.len();
         let size = [texels, samples.len()];
         let radiance = run(gpu, progress, "srgb_decode", size, |recorder| {

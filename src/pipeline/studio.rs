@@ -47,10 +47,11 @@ impl<'g> Studio<'g> {
         })
     }
 
-    /// The maps that pictures are made from, painted if asked.
+    /// The maps that pictures are made from, painted if asked; a layer of thickness 0 leaves the material bare.
     ///
     /// # Errors
-    /// [`PipelineError::Gpu`] if a map does not fit the adapter.
+    /// [`PipelineError::Gpu`] if a map does not fit the adapter, [`PipelineError::Paint`] or [`PipelineError::Pattern`] if a setting of the
+    /// painting is out of range.
     pub fn surface(&self, material: &Material, painting: Option<&Painting>, progress: &Progress) -> Result<Surface, PipelineError> {
         let gpu = self.gpu;
         let [columns, rows] = material.size();
@@ -58,9 +59,13 @@ impl<'g> Studio<'g> {
         let boundary = material.provenance.settings.boundary;
         let diffuse = upload_rgb(gpu, "diffuse", &material.svbrdf.diffuse)?;
         let bare = gpu.upload("height", material.height.values())?;
-        let (heights, painted, coat, rise) = match painting {
-            None => (bare, gpu.zeros("painted", texels)?, Coat::default(), 0.0),
+        // A film without thickness is no film.
+        let painting = painting.filter(|painting| painting.layer.thickness > 0.0);
+        let (heights, painted, coat) = match painting {
+            None => (bare, gpu.zeros("painted", texels)?, Coat::default()),
             Some(Painting { layer, pattern }) => {
+                layer.clone().checked()?;
+                pattern.checked()?;
                 let drawn = run(gpu, progress, "pattern", [texels, 1], |recorder| self.pattern.record(recorder, *pattern, size))?;
                 let painted = run(gpu, progress, "kubelka_munk", [texels, 1], |recorder| {
                     self.kubelka_munk.record(recorder, &diffuse, &drawn, layer)
@@ -68,11 +73,11 @@ impl<'g> Studio<'g> {
                 let heights =
                     run(gpu, progress, "paint_relief", [texels, 1], |recorder| self.paint_relief.record(recorder, &bare, &drawn, layer))?;
                 let coat = Coat { refractive_index: layer.refractive_index, roughness: layer.roughness };
-                (heights, painted, coat, layer.rise(1.0))
+                (heights, painted, coat)
             }
         };
         let normals = run(gpu, progress, "normals", [texels, 1], |recorder| self.normals.record(recorder, &heights, size, boundary))?;
-        let [lowest, highest] = material.height.values().iter().fold([0.0_f32; 2], |[low, high], &z| [low.min(z), high.max(z)]);
+        let height_range = heights.read(gpu)?.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)]);
         Ok(Surface {
             size,
             heights,
@@ -81,7 +86,7 @@ impl<'g> Studio<'g> {
             specular: upload_rgb(gpu, "specular", &material.svbrdf.specular)?,
             lobe: gpu.upload("lobe", material.svbrdf.lobe.values())?,
             painted,
-            height_range: [lowest, highest + stage::single(rise)],
+            height_range,
             boundary,
             coat,
         })

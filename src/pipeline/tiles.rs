@@ -9,29 +9,42 @@ use crate::{
     data::OCTET,
     gpu::{Gpu, Recorder},
     io::Source,
+    stage::LafortuneFit,
 };
 
-/// Bytes of decoded images held on the host at once.
-const BAND_BYTES: usize = 1 << 30;
+/// What may be held at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Memory {
+    /// Bytes of decoded images on the host.
+    pub host: usize,
+    /// Bytes of the largest array of a tile on the adapter. An adapter's own limit holds as well.
+    pub adapter: u64,
+}
 
-/// Bytes of one array of a tile, where the adapter allows more: larger tiles gain nothing and hold more memory.
-const TILE_BYTES: u64 = 256 << 20;
+impl Default for Memory {
+    /// 1 GiB, and arrays of 256 MiB: larger tiles gain nothing.
+    fn default() -> Self {
+        Self { host: 1 << 30, adapter: 256 << 20 }
+    }
+}
 
-/// Texels of a tile with `samples` samples, so that its halves `[channel][octet][texel]` fit one binding.
-pub(super) fn tile_texels(gpu: &Gpu, samples: usize) -> usize {
-    let texel = (3 * samples.next_multiple_of(OCTET) * size_of::<half::f16>()) as u64;
-    usize::try_from(gpu.max_array_bytes().min(TILE_BYTES) / texel).unwrap_or(usize::MAX).max(1)
+/// Texels of a tile with `samples` samples, so that its largest array fits: the halves `[channel][octet][texel]`, or with few
+/// samples what a stage keeps of each texel.
+fn tile_texels(gpu: &Gpu, memory: Memory, samples: usize) -> usize {
+    let halves = 3 * samples.next_multiple_of(OCTET) * size_of::<half::f16>();
+    let texel = halves.max(LafortuneFit::STATE_BYTES) as u64;
+    usize::try_from(gpu.max_array_bytes().min(memory.adapter) / texel).unwrap_or(usize::MAX).max(1)
 }
 
 /// Calls `tile(texels, codes)` for each tile of the source, with the codes `[sample][texel]` of the given samples. Each image is decoded
 /// once a band of tiles: once in all where the band holds the whole plane.
 pub(super) fn for_each_tile(
-    gpu: &Gpu, source: &dyn Source, samples: &[usize], progress: &Progress,
+    gpu: &Gpu, source: &dyn Source, samples: &[usize], memory: Memory, progress: &Progress,
     mut tile: impl FnMut(Range<usize>, &[u32]) -> Result<(), PipelineError>,
 ) -> Result<(), PipelineError> {
     let texels = source.btf().texels();
-    let tile_texels = tile_texels(gpu, samples.len()).min(texels);
-    let tiles_a_band = (BAND_BYTES / (samples.len() * tile_texels * size_of::<u32>())).max(1);
+    let tile_texels = tile_texels(gpu, memory, samples.len()).min(texels);
+    let tiles_a_band = (memory.host / (samples.len() * tile_texels * size_of::<u32>())).max(1);
     let band_texels = (tiles_a_band * tile_texels).min(texels);
     progress.expect(texels.div_ceil(band_texels) * samples.len());
     for start in (0..texels).step_by(band_texels) {

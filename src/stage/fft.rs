@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use super::scalar::{count, single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct,
@@ -93,13 +94,12 @@ impl Fft {
 
     /// One pass, in as many dispatches as keep each short.
     fn dispatch(
-        &self, recorder: &mut Recorder<'_>, axis: &Axis, pass: Params, source: &Buffer<[f32; 2]>, result: &Buffer<[f32; 2]>, count: usize,
+        &self, recorder: &mut Recorder<'_>, axis: &Axis, pass: Params, source: &Buffer<[f32; 2]>, result: &Buffer<[f32; 2]>, length: usize,
     ) -> Result<(), GpuError> {
         let values = (MAX_TERMS / pass.radix).max(1) as usize;
-        for first in (0..count).step_by(values) {
-            let end = count.min(first + values);
-            let to_u32 = |index: usize| u32::try_from(index).unwrap_or(u32::MAX);
-            let params = Params { first: to_u32(first), end: to_u32(end), ..pass };
+        for first in (0..length).step_by(values) {
+            let end = length.min(first + values);
+            let params = Params { first: count(first), end: count(end), ..pass };
             let params = recorder.gpu().uniform("Fourier transform params", &params)?;
             let binds = [bind("params", &params), bind("twiddles", &axis.twiddles), bind("source", source), bind("result", result)];
             recorder.dispatch(&self.kernel, &binds, Grid::threads(end - first))?;
@@ -110,10 +110,9 @@ impl Fft {
 
 impl Axis {
     fn new(gpu: &Gpu, length: u32, stride: u32) -> Result<Self, GpuError> {
-        #[expect(clippy::cast_possible_truncation, reason = "computed in f64, kept in f32")]
         let twiddle = |k: u32| {
             let (sin, cos) = (TAU * f64::from(k) / f64::from(length)).sin_cos();
-            [cos as f32, -sin as f32]
+            [single(cos), single(-sin)]
         };
         let twiddles: Vec<_> = (0..length).map(twiddle).collect();
         Ok(Self { length, stride, twiddles: gpu.upload("Fourier transform twiddles", &twiddles)? })
@@ -148,9 +147,8 @@ fn factors(length: u32) -> Vec<u32> {
 }
 
 /// What makes the inverse the inverse: one over the number of values.
-#[expect(clippy::cast_possible_truncation, reason = "computed in f64, kept in f32")]
 fn scale([width, height]: [u32; 2]) -> f32 {
-    (1.0 / (f64::from(width) * f64::from(height))) as f32
+    single(1.0 / (f64::from(width) * f64::from(height)))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! The method wants a periodic surface. Under [`Boundary::Mirror`] it gets one of twice the width and height: the sample and
 //! its mirror images. Either way the mean height is zero, since Z(0,0) = 0 and all mirror images have the same mean.
 
-use super::Fft;
+use super::{Fft, scalar::single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct,
@@ -103,8 +103,7 @@ impl FrankotChellappa {
         &self, recorder: &mut Recorder<'_>, normals: &Buffer<[f32; 4]>, texels: u32, max_slope: f64,
     ) -> Result<Buffer<[f32; 2]>, GpuError> {
         let gpu = recorder.gpu();
-        #[expect(clippy::cast_possible_truncation, reason = "the kernel works in f32")]
-        let params = gpu.uniform("slopes params", &SlopesParams { texels, max_slope: max_slope as f32 })?;
+        let params = gpu.uniform("slopes params", &SlopesParams { texels, max_slope: single(max_slope) })?;
         let slopes = gpu.fresh("slopes", texels as usize)?;
         let binds = [bind("params", &params), bind("normals", normals), bind("slopes", &slopes)];
         recorder.dispatch(&self.slopes, &binds, Grid::threads(texels as usize))?;

@@ -100,6 +100,9 @@ pub struct LafortuneFit {
 }
 
 impl LafortuneFit {
+    /// Bytes that a fit keeps of each texel between its steps.
+    pub const STATE_BYTES: usize = size_of::<FitState>();
+
     /// Builds the kernels.
     ///
     /// # Errors

@@ -37,4 +37,4 @@ pub use srgb_decode::SrgbDecode;
 pub use surface::{Scene, Surface};
 pub use tile::Tile;
 
-pub(crate) use scalar::{count, single};
+pub(crate) use scalar::count;

@@ -65,7 +65,7 @@ impl Percentile {
         recorder.dispatch(
             &self.kernel,
             &[bind("params", &params), bind("values", &values.values), bind("quantiles", &quantiles)],
-            Grid::layers(values.texels, 3),
+            Grid::threads(values.texels),
         )?;
         Ok(quantiles)
     }

@@ -10,7 +10,7 @@ use half::f16;
 
 use super::{StageError, Tile, scalar::count};
 use crate::{
-    data::Direction,
+    data::{Direction, OCTET},
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct, wgsl,
 };
@@ -37,7 +37,7 @@ impl PhotometricStereo {
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         let resources = [
             Resource::uniform::<Params>("params"),
-            Resource::read::<[f16; 8]>("samples"),
+            Resource::read::<[f16; OCTET]>("samples"),
             Resource::read::<[f32; 4]>("weights"),
             Resource::read_write::<[f32; 4]>("normals"),
         ];
@@ -85,6 +85,6 @@ fn weights(lights: &[Direction]) -> Result<Vec<[f32; 4]>, StageError> {
     }
     let inverse = normal_matrix.inverse();
     let mut weights: Vec<[f32; 4]> = directions.iter().map(|&l| (inverse * l).as_vec3().extend(0.0).to_array()).collect();
-    weights.resize(found.next_multiple_of(8), [0.0; 4]);
+    weights.resize(found.next_multiple_of(OCTET), [0.0; 4]);
     Ok(weights)
 }

@@ -1,5 +1,6 @@
 //! A material on the adapter, ready to be looked at: what `reconstruct` and the render passes read.
 
+use super::scalar::single;
 use crate::{
     data::Direction,
     gpu::{Bind, Buffer, Gpu, GpuError, Resource, bind},
@@ -82,8 +83,6 @@ impl Surface {
     /// The uniform block of one picture.
     pub(crate) fn scene(&self, gpu: &Gpu, view: Direction, light: Direction, relief: Relief) -> Result<Buffer<Scene>, GpuError> {
         let vector = |direction: Direction| direction.vector().as_vec3().extend(0.0).to_array();
-        #[expect(clippy::cast_possible_truncation, reason = "settings of a few digits")]
-        let single = |value: f64| value as f32;
         gpu.uniform(
             "scene",
             &Scene {

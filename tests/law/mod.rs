@@ -17,4 +17,5 @@ crate::suites! {
     plane,
     reconstruct,
     specular_scale,
+    tiles,
 }
