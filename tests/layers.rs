@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, path::Path};
 
-crate::suite! { plain: modules_name_only_what_they_may; }
+crate::suite! { plain: modules_name_only_what_they_may, names_are_found_however_they_are_reached; }
 
 /// A module and the modules of the crate that its files may name.
 const MAY_NAME: &[(&str, &[&str])] = &[
@@ -33,7 +33,8 @@ fn modules_name_only_what_they_may() {
             wrong.push(format!("{}: module \"{module}\" is not in the table", below.display()));
             return;
         };
-        for named in named_modules(&std::fs::read_to_string(file).expect("is readable")) {
+        let depth = below.with_extension("").iter().filter(|part| *part != "mod").count();
+        for named in named_modules(&std::fs::read_to_string(file).expect("is readable"), depth) {
             if named != module && !allowed.contains(&named.as_str()) && MAY_NAME.iter().any(|(name, _)| *name == named) {
                 wrong.push(format!("{}: {module} may not name {named}", below.display()));
             }
@@ -55,37 +56,75 @@ fn visit(folder: &Path, found: &mut dyn FnMut(&Path)) {
     }
 }
 
-/// First path segments after `crate::` (also inside `use crate::{…}`), comments left out.
-fn named_modules(text: &str) -> BTreeSet<String> {
+/// First path segments below the crate's root, after `crate::` or a chain of `super::` that climbs there from a file `depth` modules
+/// deep (also inside `{…}`), comments left out.
+fn named_modules(text: &str, depth: usize) -> BTreeSet<String> {
     let code: String = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n");
     let mut names = BTreeSet::new();
-    for (start, _) in code.match_indices("crate::") {
-        let rest = &code[start + "crate::".len()..];
-        if let Some(list) = rest.strip_prefix('{') {
-            let mut depth = 0;
-            let mut name = String::new();
-            for character in list.chars() {
-                match character {
-                    '}' if depth == 0 => break,
-                    '{' => depth += 1,
-                    '}' => depth -= 1,
-                    ',' if depth == 0 => {
-                        names.insert(first_segment(&name));
-                        name.clear();
-                        continue;
-                    }
-                    _ => {}
-                }
-                name.push(character);
-            }
-            names.insert(first_segment(&name));
-        } else {
-            names.insert(first_segment(rest));
+    for (start, root) in code.match_indices("crate::") {
+        add_names(&code[start + root.len()..], &mut names);
+    }
+    for (start, _) in code.match_indices("super::").filter(|(start, _)| !code[..*start].ends_with("super::")) {
+        let rest = code[start..].trim_start_matches("super::");
+        let climbed = (code.len() - start - rest.len()) / "super::".len();
+        if climbed >= depth + inline_modules(&code[..start]) {
+            add_names(rest, &mut names);
         }
     }
     names
 }
 
+/// How many modules with a body of their own are open at the end of `code`.
+fn inline_modules(code: &str) -> usize {
+    let mut open = Vec::new();
+    for (at, brace) in code.match_indices(['{', '}']) {
+        if brace == "{" {
+            open.push(code[..at].split_whitespace().rev().nth(1) == Some("mod"));
+        } else {
+            open.pop();
+        }
+    }
+    open.into_iter().filter(|is_module| *is_module).count()
+}
+
+/// Adds the first segment of a path, or of each path of a list.
+fn add_names(path: &str, names: &mut BTreeSet<String>) {
+    let Some(list) = path.strip_prefix('{') else {
+        names.insert(first_segment(path));
+        return;
+    };
+    let mut depth = 0;
+    let mut name = String::new();
+    for character in list.chars() {
+        match character {
+            '}' if depth == 0 => break,
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                names.insert(first_segment(&name));
+                name.clear();
+                continue;
+            }
+            _ => {}
+        }
+        name.push(character);
+    }
+    names.insert(first_segment(&name));
+}
+
 fn first_segment(path: &str) -> String {
     path.trim_start().chars().take_while(|character| character.is_alphanumeric() || *character == '_').collect()
+}
+
+fn names_are_found_however_they_are_reached() {
+    let found = |text, depth| named_modules(text, depth).into_iter().filter(|name| !name.is_empty()).collect::<Vec<_>>();
+    assert_eq!(found("use crate::gpu::Gpu; // crate::io", 2), ["gpu"]);
+    assert_eq!(found("use crate::{data::{Map, OCTET}, model};", 2), ["data", "model"]);
+    assert_eq!(found("use super::super::stage;", 2), ["stage"]);
+    assert_eq!(found("use super::super::{stage::Tile, io};", 2), ["io", "stage"]);
+    assert_eq!(found("use super::stage;", 1), ["stage"]);
+    assert_eq!(found("use super::super::stage;", 3), [""; 0]);
+    assert_eq!(found("fn f() {} mod tests { use super::super::stage; }", 2), [""; 0]);
+    assert_eq!(found("mod tests { use super::super::super::stage; }", 2), ["stage"]);
+    assert_eq!(found("mod tests { fn f() {} } fn g() { super::super::io::f() }", 2), ["io"]);
 }

@@ -1,6 +1,7 @@
 //! What must hold without a twin.
 
 crate::suites! {
+    brdf_values,
     color,
     fft,
     frankot_chellappa,
@@ -16,6 +17,8 @@ crate::suites! {
     pigments,
     plane,
     reconstruct,
+    specular_residual,
     specular_scale,
+    srgb_decode,
     tiles,
 }

@@ -1,6 +1,6 @@
 use overpaint::{gpu::Gpu, model::Pattern, stage};
 
-use crate::support::hold;
+use crate::support::{Worst, hold};
 
 crate::suite! { gpu: thickness_stays_in_range, the_plane_repeats, resolution_does_not_matter, seeds_matter_and_repeat, a_turned_stroke_is_the_stroke_turned; }
 
@@ -37,10 +37,10 @@ fn the_plane_repeats(gpu: &Gpu) {
         let inside = (0..height)
             .flat_map(|row| (1..width).map(move |column| (row * width + column, row * width + column - 1)))
             .map(|(a, b)| step(a, b))
-            .fold(0.0, f64::max);
+            .worst();
         let seams = (0..height).map(|row| step(row * width, row * width + width - 1));
         let seams = seams.chain((0..width).map(|column| step(column, (height - 1) * width + column)));
-        hold("pattern: steps across the seam less the largest inside", seams.fold(0.0, f64::max) - inside, 0.0);
+        hold("pattern: steps across the seam less the largest inside", seams.worst() - inside, 0.0);
     }
 }
 
@@ -49,7 +49,7 @@ fn resolution_does_not_matter(gpu: &Gpu) {
     for pattern in PATTERNS {
         let (coarse, fine) = (draw(gpu, pattern, [90, 60]), draw(gpu, pattern, [270, 180]));
         let pairs = (0..90 * 60).map(|texel| (coarse[texel], fine[(3 * (texel / 90) + 1) * 270 + 3 * (texel % 90) + 1]));
-        let worst = pairs.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max);
+        let worst = pairs.map(|(a, b)| (a - b).abs()).worst();
         // Two roundings of the same place, as in the parity test.
         hold("pattern: coarse against fine", worst, 4e-4);
     }
@@ -68,5 +68,5 @@ fn a_turned_stroke_is_the_stroke_turned(gpu: &Gpu) {
     let stroke = |angle| draw(gpu, Pattern::Brush { seed: 2, angle, width: 0.3 }, [n as u32, n as u32]);
     let (flat, turned) = (stroke(0.0), stroke(std::f64::consts::FRAC_PI_2));
     let pairs = (0..n * n).map(|texel| (flat[texel], turned[(n - 1 - texel % n) * n + texel / n]));
-    hold("pattern: a quarter turn", pairs.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max), 4e-4);
+    hold("pattern: a quarter turn", pairs.map(|(a, b)| (a - b).abs()).worst(), 4e-4);
 }

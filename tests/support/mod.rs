@@ -7,6 +7,7 @@ pub mod surface;
 pub mod tile;
 
 use std::{
+    collections::BTreeMap,
     path::{Path, PathBuf},
     sync::{Mutex, OnceLock},
 };
@@ -93,13 +94,32 @@ pub fn data_folder() -> Option<PathBuf> {
     [named, Some(beside)].into_iter().flatten().find(|folder| folder.is_dir())
 }
 
-static FIGURES: Mutex<Vec<(String, f64, f64)>> = Mutex::new(Vec::new());
+/// The worst figure of each name and its bound.
+static FIGURES: Mutex<BTreeMap<String, (f64, f64)>> = Mutex::new(BTreeMap::new());
 
 /// Holds `worst` to `bound` and keeps both for the table printed at the end. NaN fails.
 #[track_caller]
 pub fn hold(what: &str, worst: f64, bound: f64) {
-    FIGURES.lock().expect("no test panics while it holds the lock").push((what.to_owned(), worst, bound));
+    let mut figures = FIGURES.lock().expect("no test panics while it holds the lock");
+    match figures.get_mut(what) {
+        Some(kept) if worst.is_nan() || worst > kept.0 => *kept = (worst, bound),
+        Some(_) => {}
+        None => drop(figures.insert(what.to_owned(), (worst, bound))),
+    }
+    drop(figures);
     assert!(worst <= bound, "{what}: {worst:.3e} exceeds its bound {bound:.3e}");
+}
+
+pub trait Worst {
+    /// The largest item; NaN if any item is not finite, or there is none.
+    fn worst(self) -> f64;
+}
+
+impl<I: Iterator<Item: Into<f64>>> Worst for I {
+    fn worst(self) -> f64 {
+        let larger = |a: f64, b: f64| if a.is_finite() && b.is_finite() { a.max(b) } else { f64::NAN };
+        self.map(Into::into).reduce(larger).filter(|worst| worst.is_finite()).unwrap_or(f64::NAN)
+    }
 }
 
 /// Largest absolute difference of two equally long lists; NaN if any value is not finite, or the lengths differ.
@@ -133,12 +153,10 @@ pub fn fft_bound(length: usize) -> f64 {
 
 /// The worst figure of every comparison that ran, beside its bound.
 pub fn print_figures() {
-    let mut figures = FIGURES.lock().expect("no test panics while it holds the lock").clone();
-    figures.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
-    figures.dedup_by(|later, first| later.0 == first.0);
+    let figures = FIGURES.lock().expect("no test panics while it holds the lock");
     if !figures.is_empty() {
         println!("\nworst figure and bound of each comparison:");
-        for (what, worst, bound) in figures {
+        for (what, (worst, bound)) in figures.iter() {
             println!("  {worst:10.3e} <= {bound:9.3e}  {what}");
         }
     }
