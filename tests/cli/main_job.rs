@@ -106,7 +106,15 @@ fn renders_have_the_size_asked_for(gpu: &Gpu) {
 fn a_material_is_not_written_over_something_else(gpu: &Gpu) {
     let folder = demonstrated(gpu);
     fs::create_dir_all(folder.join("photographs")).expect("is made");
-    refused(&overpaint(folder, &["fit", "cloth.zip", "-o", "photographs"]), 1, "is no material");
+    refused(&overpaint(folder, &["fit", "cloth.zip", "-o", "photographs"]), 1, "no overpaint material");
+    // Files that are no part of a material keep it from being replaced, before anything is computed: the source is not there.
+    fs::create_dir_all(folder.join("noted")).expect("is made");
+    fs::write(folder.join("noted/zarr.json"), fs::read(folder.join(MATERIAL).join("zarr.json")).expect("is there")).expect("is written");
+    fs::write(folder.join("noted/notes.txt"), "mine").expect("is written");
+    refused(&overpaint(folder, &["fit", "nowhere", "-o", "noted"]), 1, "notes.txt");
+    fs::create_dir_all(folder.join("again")).expect("is made");
+    fs::write(folder.join("again/weave64.zarr"), "mine").expect("is written");
+    refused(&overpaint(folder, &["demo", "-o", "again", "--adapter", &gpu.adapter().name]), 1, "no overpaint material");
 }
 
 /// The file is a picture of `size` that is neither black nor broken.

@@ -146,6 +146,7 @@ fn nothing_else_is_replaced() {
         std::fs::create_dir_all(path.join(note).parent().expect("has one")).expect("is writable");
         std::fs::write(path.join(note), "mine").expect("is writable");
         assert_says(material::save(&path, &material), &["also holds", note.split('/').next().expect("is there")]);
+        assert_says(material::check_target(&path), &["also holds"]);
         assert_eq!(std::fs::read_to_string(path.join(note)).expect("is there"), "mine");
     }
     #[cfg(unix)]
@@ -154,6 +155,8 @@ fn nothing_else_is_replaced() {
         let link = folder.path().join("link");
         std::os::unix::fs::symlink(&path, &link).expect("is writable");
         assert_says(material::save(&link, &material), &["it is a link"]);
+        assert_says(material::check_target(&link), &["it is a link"]);
+        material::check_target(&path).expect("a material may be replaced");
     }
     assert_says(material::save(&folder.path().join("no/such/folder"), &material), &["cannot write"]);
 }

@@ -2,7 +2,8 @@
 //!
 //! The group's own metadata are written last and the folder is renamed into place, so that a killed [`save`] leaves
 //! nothing that [`load`] takes. Every chunk is stored, and gzip's checksum tells a damaged one; an absent chunk, which
-//! Zarr reads as fill values, is an error here. Further arrays in a group are left alone.
+//! Zarr reads as fill values, is an error here. [`load`] looks at nothing but the arrays that it knows; [`save`] does not
+//! replace a group that holds anything else.
 
 mod format;
 
@@ -141,8 +142,12 @@ fn attributes(path: &Path) -> Result<Value, String> {
     }
 }
 
-/// Refuses a target that holds anything but a material.
-fn check_target(path: &Path) -> Result<(), IoError> {
+/// Checks that [`save`] may put a material at `path`: nothing is there, or a folder that holds a material and nothing else. [`save`]
+/// asks the same; whoever computes for long before it can ask first.
+///
+/// # Errors
+/// [`IoError::Occupied`] if something else stands there, [`IoError::Read`] if it cannot be looked at.
+pub fn check_target(path: &Path) -> Result<(), IoError> {
     let occupied = |found: String| Err(IoError::Occupied { path: path.to_owned(), found });
     if path.symlink_metadata().is_err() {
         return Ok(());
