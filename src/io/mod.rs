@@ -4,6 +4,7 @@
 //! not at all: it is made in a hidden folder beside its target and renamed into place.
 
 mod archive;
+pub mod conventions;
 mod error;
 pub mod material;
 pub mod picture;

@@ -77,11 +77,24 @@ fn the_timings_make_sense(gpu: &Gpu) {
 
 fn info_tells_of_the_material(gpu: &Gpu) {
     let text = succeed(gpu, &["info", MATERIAL]);
-    for part in ["64 x 64", "51 views", "2601 samples", "max_iterations", "texel widths", &gpu.adapter().name] {
+    for part in [
+        "64 x 64",
+        "51: 1 at θ 0",
+        "2601, every view under every light",
+        "none of the known ones",
+        "sRGB",
+        "max_iterations",
+        "texel widths",
+        &gpu.adapter().name,
+    ] {
         assert!(text.contains(part), "{part} in {text}");
     }
     let json: Value = serde_json::from_str(&succeed(gpu, &["info", MATERIAL, "--json"])).expect("is JSON");
     assert_eq!((&json["kind"], &json["width"]), (&"material".into(), &64.into()));
+    assert_eq!(json["provenance"]["views"][0], serde_json::json!([0.0, 0.0]));
+    let stored = fs::read_to_string(demonstrated(gpu).join(MATERIAL).join("zarr.json")).expect("is there");
+    let stored: Value = serde_json::from_str(&stored).expect("is JSON");
+    assert_eq!(json["conventions"], stored["attributes"]["conventions"]);
 }
 
 fn reconstructions_are_images_of_the_texel_plane(gpu: &Gpu) {

@@ -20,7 +20,7 @@ use zarrs::{
 use format::Layout;
 pub use format::MATERIAL_FORMAT;
 
-use super::{ArrayFault, IoError, staging::Staging};
+use super::{ArrayFault, IoError, conventions, staging::Staging};
 use crate::data::{Fit, FitStatus, Map, Material, Provenance, ShapeError, Svbrdf};
 
 /// Metadata of a group are far smaller; whatever is larger is none of ours.
@@ -46,7 +46,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
     writer.store(&format::SPECULAR, specular, specular.values().as_flattened())?;
     writer.store(&format::LOBE, lobe, lobe.values().as_flattened())?;
     let Fit { objective_start, objective, iterations, status } = &material.fit;
-    writer.store(&format::OBJECTIVE_START, objective_start, objective_start.values())?;
+    writer.store(&format::OBJECTIVE_WITHOUT_LOBE, objective_start, objective_start.values())?;
     writer.store(&format::OBJECTIVE, objective, objective.values())?;
     writer.store(&format::ITERATIONS, iterations, iterations.values())?;
     let codes: Vec<u8> = status.values().iter().map(|&code| status_code(path, code)).collect::<Result<_, _>>()?;
@@ -59,7 +59,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
         ("format_version", json!(format::VERSION)),
         ("width", json!(width)),
         ("height", json!(height)),
-        ("conventions", format::conventions()),
+        ("conventions", conventions::MATERIAL.iter().copied().collect()),
         ("provenance", provenance),
     ];
     let mut group = GroupBuilder::new();
@@ -110,7 +110,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
             lobe: reader.vectors(&format::LOBE)?,
         },
         fit: Fit {
-            objective_start: reader.scalars(&format::OBJECTIVE_START)?,
+            objective_start: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,
             iterations: reader.scalars(&format::ITERATIONS)?,
             status: Map::new(width, height, status)?,
@@ -164,7 +164,7 @@ pub fn check_target(path: &Path) -> Result<(), IoError> {
         let mut parts = file.iter().map(|part| part.to_str().unwrap_or_default());
         match (parts.next(), parts.next()) {
             (Some("zarr.json"), None) => true,
-            (Some(array), None | Some("zarr.json" | "c")) => format::NAMES.contains(&array),
+            (Some(array), None | Some("zarr.json" | "c")) => format::NAMES.contains(&array) || format::FORMER_NAMES.contains(&array),
             _ => false,
         }
     };
