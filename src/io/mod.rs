@@ -17,6 +17,7 @@ use std::path::Path;
 
 pub use error::{ArrayFault, IoError};
 pub use source::{Source, open, open_zip_bytes};
+pub use staging::write;
 
 /// What a path holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
