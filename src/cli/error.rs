@@ -28,7 +28,7 @@ pub enum CliError {
         reason: String,
     },
     /// A file that the command line writes itself.
-    #[error("{path} could not be written", path = path.display())]
+    #[error("{path} could not be written; check that its folder may be written and the disk has room", path = path.display())]
     Write {
         /// The file.
         path: PathBuf,
@@ -36,7 +36,7 @@ pub enum CliError {
         source: std::io::Error,
     },
     /// Standard output is closed or full.
-    #[error("standard output could not be written")]
+    #[error("standard output could not be written; check where it goes: a full disk or a closed file")]
     Stdout {
         /// The system's reason.
         source: std::io::Error,

@@ -49,7 +49,7 @@ pub struct Fit {
     /// How the specular albedo follows from the lobe
     #[arg(long, value_name = "RULE", default_value = "least-squares", value_parser = arguments::specular_scale())]
     specular_scale: SpecularScale,
-    /// With mean-ratio: leave out samples whose lobe is below this
+    /// Least lobe that ρ_s is taken from: with mean-ratio of a sample, with least-squares the root of a texel's sum of squares
     #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, allow_negative_numbers = true, value_parser = arguments::positive)]
     min_lobe: f64,
 }

@@ -1,14 +1,17 @@
 //! `overpaint info`.
 
-use std::{collections::BTreeMap, fmt::Write, path::PathBuf};
+use std::{collections::BTreeMap, fmt::Display, path::PathBuf};
 
 use clap::Args;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::{CliError, say};
 use crate::{
     data::{Btf, Direction, FitStatus, Material, Provenance, Transfer},
-    io,
+    io::{
+        self,
+        conventions::{self, Convention},
+    },
 };
 
 /// Tell what a source or a material holds.
@@ -38,18 +41,8 @@ impl Info {
     }
 }
 
-const SOURCE_CONVENTIONS: &[&str] = &[
-    "row 0 is the top row; x right, y up, z out of the plane",
-    "directions point away from the surface; theta from the normal, phi counter-clockwise from +x",
-    "a pixel is pi L/E, E on a surface that faces the light: a white Lambertian plane lit at theta reads cos theta",
-];
-
-const MATERIAL_CONVENTIONS: &[&str] = &[
-    "row 0 is the top row; x right, y up, z out of the plane",
-    "directions point away from the surface; theta from the normal, phi counter-clockwise from +x",
-    "linear RGB; reflectance as pi f_r: a white Lambertian plane is 1",
-    "height in texel widths, positive outwards, mean 0",
-];
+/// Rings of directions that are listed one by one; all of the known grids have fewer.
+const LISTED_RINGS: usize = 12;
 
 /// What a path holds, as printed.
 #[derive(Serialize)]
@@ -59,15 +52,10 @@ enum Content {
         name: String,
         width: usize,
         height: usize,
-        samples: usize,
-        every_pair: bool,
-        grid: Option<&'static str>,
-        transfer: Transfer,
-        /// (θ, φ) in degrees.
-        views: Vec<(f64, f64)>,
-        /// (θ, φ) in degrees.
-        lights: Vec<(f64, f64)>,
-        conventions: &'static [&'static str],
+        #[serde(flatten)]
+        measured: Measured,
+        #[serde(serialize_with = "as_map")]
+        conventions: &'static [Convention],
     },
     Material {
         width: usize,
@@ -77,8 +65,52 @@ enum Content {
         /// How many texels' fits ended in which way.
         fit: BTreeMap<&'static str, usize>,
         provenance: Provenance,
-        conventions: &'static [&'static str],
+        #[serde(serialize_with = "as_map")]
+        conventions: &'static [Convention],
     },
+}
+
+/// What was measured: of a source, or of the source of a material.
+#[derive(Serialize)]
+struct Measured {
+    samples: usize,
+    every_pair: bool,
+    grid: Option<String>,
+    transfer: Transfer,
+    /// (θ, φ) in degrees.
+    views: Vec<(f64, f64)>,
+    /// (θ, φ) in degrees.
+    lights: Vec<(f64, f64)>,
+}
+
+impl Measured {
+    fn of_source(btf: &Btf) -> Self {
+        Self {
+            samples: btf.pairs().len(),
+            every_pair: btf.is_product(),
+            grid: btf.grid().map(str::to_owned),
+            transfer: btf.transfer(),
+            views: degrees(btf.views()),
+            lights: degrees(btf.lights()),
+        }
+    }
+
+    fn of_provenance(provenance: &Provenance) -> Self {
+        let Provenance { views, lights, samples, grid, transfer, .. } = provenance;
+        Self {
+            samples: *samples,
+            every_pair: *samples == views.len() * lights.len(),
+            grid: grid.clone(),
+            transfer: *transfer,
+            views: degrees(views),
+            lights: degrees(lights),
+        }
+    }
+}
+
+/// As a material stores them.
+fn as_map<S: Serializer>(conventions: &[Convention], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(conventions.iter().copied())
 }
 
 /// How a texel's fit ended, in words.
@@ -87,26 +119,14 @@ fn fit_end(status: FitStatus) -> &'static str {
         FitStatus::Running => "out of iterations",
         FitStatus::Converged => "converged",
         FitStatus::NoSpecular => "no specular part",
-        FitStatus::Stalled => "stalled",
+        FitStatus::Stalled => "settled to rounding",
     }
 }
 
 impl Content {
     fn of_source(btf: &Btf) -> Self {
         let [width, height] = btf.size();
-        let degrees = |directions: &[Direction]| directions.iter().map(|direction| rounded(*direction)).collect();
-        Self::Source {
-            name: btf.name().to_owned(),
-            width,
-            height,
-            samples: btf.pairs().len(),
-            every_pair: btf.is_product(),
-            grid: btf.grid(),
-            transfer: btf.transfer(),
-            views: degrees(btf.views()),
-            lights: degrees(btf.lights()),
-            conventions: SOURCE_CONVENTIONS,
-        }
+        Self::Source { name: btf.name().to_owned(), width, height, measured: Measured::of_source(btf), conventions: conventions::SOURCE }
     }
 
     fn of_material(material: &Material) -> Self {
@@ -121,61 +141,76 @@ impl Content {
             highest: heights.fold(f32::NEG_INFINITY, f32::max),
             fit: FitStatus::ALL.map(|status| (fit_end(status), texels(status))).into(),
             provenance: material.provenance.clone(),
-            conventions: MATERIAL_CONVENTIONS,
+            conventions: conventions::MATERIAL,
         }
     }
 
     fn describe(&self) -> String {
-        let mut lines = Vec::new();
-        let mut line = |label: &str, text: String| lines.push(format!("{label:13} {text}"));
+        let mut lines = Lines::default();
         let conventions = match self {
-            Self::Source { name, width, height, samples, every_pair, grid, transfer, views, lights, conventions } => {
-                line("source", name.clone());
-                line("texels", format!("{width} x {height}"));
-                line("views", rings(views));
-                line("lights", rings(lights));
-                line("samples", format!("{samples}{}", if *every_pair { ", every view under every light" } else { "" }));
-                line("grid", grid.unwrap_or("none of the known ones").to_owned());
-                let transfer = match transfer {
-                    Transfer::Srgb => "sRGB",
-                    Transfer::Linear => "linear",
-                };
-                line("transfer", transfer.to_owned());
+            Self::Source { name, width, height, measured, conventions } => {
+                lines.add("source", name);
+                lines.add("texels", format!("{width} x {height}"));
+                lines.measured(measured);
                 conventions
             }
             Self::Material { width, height, lowest, highest, fit, provenance, conventions } => {
-                let Provenance { source, views, lights, samples, adapter, version, settings } = provenance;
-                line("material of", source.clone());
-                line("texels", format!("{width} x {height}"));
-                line("height", format!("{lowest:.3} to {highest:.3} texel widths"));
+                lines.add("material of", &provenance.source);
+                lines.add("texels", format!("{width} x {height}"));
+                lines.add("height", format!("{lowest:.3} to {highest:.3} texel widths"));
                 let ends: Vec<_> = fit.iter().filter(|(_, texels)| **texels > 0).map(|(end, texels)| format!("{texels} {end}")).collect();
-                line("fit", ends.join(", "));
-                line("measured", format!("{views} views, {lights} lights, {samples} samples"));
-                line("adapter", adapter.clone());
-                line("version", version.clone());
+                lines.add("fit", ends.join(", "));
+                lines.measured(&Measured::of_provenance(provenance));
+                lines.add("adapter", &provenance.adapter);
+                lines.add("version", &provenance.version);
                 // The settings by the names that they have in files.
-                if let Ok(serde_json::Value::Object(settings)) = serde_json::to_value(settings) {
-                    for (index, (name, value)) in settings.iter().enumerate() {
-                        line(if index == 0 { "settings" } else { "" }, format!("{name} = {value}"));
-                    }
+                if let Ok(serde_json::Value::Object(settings)) = serde_json::to_value(provenance.settings) {
+                    lines.list("settings", settings.iter().map(|(name, value)| format!("{name} = {value}")));
                 }
                 conventions
             }
         };
-        for (index, convention) in conventions.iter().enumerate() {
-            line(if index == 0 { "conventions" } else { "" }, (*convention).to_owned());
+        lines.list("conventions", conventions.iter().map(|(topic, text)| format!("{topic}: {text}")));
+        lines.0.join("\n")
+    }
+}
+
+/// Lines for people: a label and what it labels.
+#[derive(Default)]
+struct Lines(Vec<String>);
+
+impl Lines {
+    fn add(&mut self, label: &str, text: impl Display) {
+        self.0.push(format!("{label:13} {text}"));
+    }
+
+    /// One label for several lines.
+    fn list(&mut self, label: &str, texts: impl Iterator<Item = String>) {
+        for (index, text) in texts.enumerate() {
+            self.add(if index == 0 { label } else { "" }, text);
         }
-        lines.join("\n")
+    }
+
+    fn measured(&mut self, Measured { samples, every_pair, grid, transfer, views, lights }: &Measured) {
+        self.add("views", rings(views));
+        self.add("lights", rings(lights));
+        self.add("samples", format!("{samples}{}", if *every_pair { ", every view under every light" } else { "" }));
+        self.add("grid", grid.as_deref().unwrap_or("none of the known ones"));
+        let transfer = match transfer {
+            Transfer::Srgb => "sRGB",
+            Transfer::Linear => "linear",
+        };
+        self.add("transfer", transfer);
     }
 }
 
 /// (θ, φ) in degrees, to a millionth: what a file's name says, without the noise of the conversion to radians and back.
-fn rounded(direction: Direction) -> (f64, f64) {
-    let (theta, phi) = direction.degrees();
-    ((theta * 1e6).round() / 1e6, (phi * 1e6).round() / 1e6)
+fn degrees(directions: &[Direction]) -> Vec<(f64, f64)> {
+    let rounded = |degrees: f64| (degrees * 1e6).round() / 1e6;
+    directions.iter().map(|direction| direction.degrees()).map(|(theta, phi)| (rounded(theta), rounded(phi))).collect()
 }
 
-/// How many directions, and how many on each ring of equal θ.
+/// How many directions, and how many on each ring of equal θ; of many rings only the range.
 fn rings(directions: &[(f64, f64)]) -> String {
     let mut rings: Vec<(f64, usize)> = Vec::new();
     for &(theta, _) in directions {
@@ -185,11 +220,10 @@ fn rings(directions: &[(f64, f64)]) -> String {
         }
     }
     rings.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut text = directions.len().to_string();
-    for (index, (theta, count)) in rings.iter().enumerate() {
-        let separator = if index == 0 { ": " } else { ", " };
-        // Writing into a string cannot fail.
-        write!(text, "{separator}{count} at θ {theta}").ok();
-    }
-    text
+    let on_rings = match rings.as_slice() {
+        [] => return "0".to_owned(),
+        [(lowest, _), .., (highest, _)] if rings.len() > LISTED_RINGS => format!("θ {lowest} to {highest}, {} different", rings.len()),
+        _ => rings.iter().map(|(theta, count)| format!("{count} at θ {theta}")).collect::<Vec<_>>().join(", "),
+    };
+    format!("{}: {on_rings}", directions.len())
 }

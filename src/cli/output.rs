@@ -13,11 +13,9 @@ pub fn check_file(path: &Path) -> Result<(), CliError> {
     check_parent(path)
 }
 
-/// Checks that a material of this path can be made: nothing is in its place but an older material.
+/// Checks that a material of this path can be made: nothing is in its place but an older material, and its folder may be written.
 pub fn check_material(path: &Path) -> Result<(), CliError> {
-    if path.exists() && io::kind(path) != io::Kind::Material {
-        return refuse(path, "it exists and is no material; remove it or choose another name");
-    }
+    io::material::check_target(path)?;
     check_parent(path)
 }
 

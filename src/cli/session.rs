@@ -1,12 +1,13 @@
 //! What every computing command shares: the adapter, the progress and the timings.
 
-use std::{fs, path::PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::{CliError, bar, output};
 use crate::{
     gpu::Gpu,
+    io,
     pipeline::{Progress, StageTable},
 };
 
@@ -55,8 +56,9 @@ impl Session {
         // The bar goes before anything else is printed.
         drop(self.progress);
         if let Some(path) = self.timings {
-            let json = serde_json::to_string_pretty(&table).map_err(std::io::Error::from);
-            json.and_then(|json| fs::write(&path, json + "\n")).map_err(|source| CliError::Write { path, source })?;
+            let json = serde_json::to_string_pretty(&table);
+            let json = json.map_err(|error| CliError::Write { path: path.clone(), source: error.into() })?;
+            io::write(&path, (json + "\n").as_bytes())?;
         }
         Ok(table)
     }

@@ -26,7 +26,7 @@ pub enum Transfer {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BtfError {
     /// No pairs at all.
-    #[error("a BTF needs at least one (view, light) pair, but there is none")]
+    #[error("a BTF needs at least one (view, light) pair, but there is none; add one")]
     Empty,
     /// No texels.
     #[error("a BTF needs at least one texel, but its images are {width} x {height}")]

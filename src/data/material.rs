@@ -1,6 +1,6 @@
 //! What is recovered from a BTF: geometry and per-texel reflectance.
 
-use super::{Map, ShapeError};
+use super::{Direction, Map, ShapeError, Transfer};
 use crate::model::FitSettings;
 
 /// Per-texel reflectance f_r = ρ_d + ρ_s·(C·ω_i ω_o)^n, in π·f_r units (Lafortune et al. 1997; thesis eq. 3.3).
@@ -18,13 +18,13 @@ pub struct Svbrdf {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum FitStatus {
-    /// Still descending when the iterations ran out.
+    /// Out of iterations, still descending.
     Running = 0,
     /// The objective settled.
     Converged = 1,
     /// Nothing above the diffuse part: no lobe, ρ_s = 0.
     NoSpecular = 2,
-    /// No step lowered the objective any more, however short.
+    /// Settled to rounding: no step, however short, lowers the objective any more in single precision.
     Stalled = 3,
 }
 
@@ -42,7 +42,7 @@ impl FitStatus {
 /// Diagnostics of the Levenberg-Marquardt fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// Mean squared residual at the start, reflectance².
+    /// Mean squared residual without any lobe, reflectance².
     pub objective_start: Map<f32>,
     /// Mean squared residual at the end, reflectance².
     pub objective: Map<f32>,
@@ -57,18 +57,42 @@ pub struct Fit {
 pub struct Provenance {
     /// The source's name.
     pub source: String,
-    /// Views and lights of the source.
-    pub views: usize,
-    /// Lights of the source.
-    pub lights: usize,
-    /// Samples of the source.
+    /// Views of the source. Stored as [θ, φ] in degrees, to a billionth.
+    #[serde(with = "degrees")]
+    pub views: Vec<Direction>,
+    /// Lights of the source. Stored as [θ, φ] in degrees, to a billionth.
+    #[serde(with = "degrees")]
+    pub lights: Vec<Direction>,
+    /// Number of samples of the source.
     pub samples: usize,
+    /// Name of the source's direction grid if it is a known one.
+    pub grid: Option<String>,
+    /// How the source's stored values became linear light.
+    pub transfer: Transfer,
     /// The adapter that computed it.
     pub adapter: String,
     /// Version of overpaint.
     pub version: String,
     /// Settings of every stage.
     pub settings: FitSettings,
+}
+
+/// Directions as [θ, φ] in degrees, to a billionth: what the name of an image says comes back bit by bit.
+mod degrees {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::Direction;
+
+    pub(super) fn serialize<S: Serializer>(directions: &[Direction], serializer: S) -> Result<S::Ok, S::Error> {
+        let rounded = |degrees: f64| (degrees * 1e9).round() / 1e9;
+        let degrees = directions.iter().map(|direction| <[f64; 2]>::from(direction.degrees()).map(rounded));
+        degrees.collect::<Vec<_>>().serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Direction>, D::Error> {
+        let degrees = Vec::<[f64; 2]>::deserialize(deserializer)?;
+        Ok(degrees.into_iter().map(|[theta, phi]| Direction::from_degrees(theta, phi)).collect())
+    }
 }
 
 /// A recovered material.

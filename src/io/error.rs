@@ -14,7 +14,7 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The system refused to read.
-    #[error("cannot read {file}: {source}")]
+    #[error("cannot read {file} (check that it is there and that you may read it): {source}")]
     Read {
         /// The file or folder.
         file: String,
@@ -22,7 +22,7 @@ pub enum IoError {
         source: std::io::Error,
     },
     /// The system refused to write.
-    #[error("cannot write {path}: {source}", path = path.display())]
+    #[error("cannot write {path} (check that its folder is there and may be written, and that the disk has room): {source}", path = path.display())]
     Write {
         /// The file or folder.
         path: PathBuf,
@@ -238,7 +238,7 @@ pub enum IoError {
         row: usize,
     },
     /// A picture that cannot be encoded or decoded.
-    #[error("picture {path}: {message}", path = path.display())]
+    #[error("picture {path}: {message}; check that the file is whole and what its extension says, or use the other of .png and .exr", path = path.display())]
     Picture {
         /// The picture.
         path: PathBuf,

@@ -4,6 +4,7 @@
 //! not at all: it is made in a hidden folder beside its target and renamed into place.
 
 mod archive;
+pub mod conventions;
 mod error;
 pub mod material;
 pub mod picture;
@@ -16,6 +17,7 @@ use std::path::Path;
 
 pub use error::{ArrayFault, IoError};
 pub use source::{Source, open, open_zip_bytes};
+pub use staging::write;
 
 /// What a path holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

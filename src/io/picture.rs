@@ -5,7 +5,7 @@ use std::{io::Cursor, path::Path};
 use exr::prelude::{Image, ReadChannels, ReadLayers, SpecificChannels, Vec2, WritableImage};
 use image::{ExtendedColorType, ImageFormat};
 
-use super::{IoError, staging::Staging};
+use super::IoError;
 use crate::{
     data::Map,
     model::color::{linear_from_srgb, srgb_from_linear},
@@ -35,9 +35,7 @@ pub fn write(path: &Path, picture: &Map<[f32; 4]>) -> Result<(), IoError> {
         Format::Png => png_bytes(path, picture)?,
         Format::Exr => exr_bytes(path, picture)?,
     };
-    let staging = Staging::beside(path)?;
-    std::fs::write(staging.path(), bytes).map_err(|source| IoError::Write { path: path.to_owned(), source })?;
-    staging.commit()
+    super::write(path, &bytes)
 }
 
 /// Reads a picture as linear RGBA, premultiplied.

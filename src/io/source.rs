@@ -5,8 +5,8 @@ use std::{fmt::Debug, path::Path};
 use super::{IoError, archive::Archive, tree::ImageTree};
 use crate::data::Btf;
 
-/// A measured BTF whose samples are decoded one by one, from any number of threads at once. Nothing is cached: a
-/// caller decodes each sample once.
+/// A measured BTF whose samples are decoded one by one, from any number of threads at once. Nothing is cached: each
+/// call reads and decodes anew.
 pub trait Source: Send + Sync + Debug {
     /// Name, size, directions and conventions.
     fn btf(&self) -> &Btf;

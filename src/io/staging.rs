@@ -8,7 +8,8 @@ use super::IoError;
 
 /// A hidden folder beside a target. The result is made in it and then renamed to the target's name, which happens
 /// within one file system and therefore at once; whatever is left in the folder is removed with it. A killed process
-/// leaves the hidden folder behind and the target as it was.
+/// leaves the hidden folder behind and the target as it was, except between the two renames that replace a folder: then
+/// the target is absent, and the hidden folder beside it holds the old one and the new one.
 pub(super) struct Staging {
     folder: TempDir,
     target: PathBuf,
@@ -41,4 +42,19 @@ impl Staging {
         }
         result.map_err(|source| IoError::Write { path: self.target.clone(), source })
     }
+}
+
+/// Writes a file that appears under its name whole or not at all. What is there and no plain file, as a link or a device, is
+/// written to and not replaced.
+///
+/// # Errors
+/// [`IoError::Write`].
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
+    let failed = |source| IoError::Write { path: path.to_owned(), source };
+    if path.symlink_metadata().is_ok_and(|there| !there.is_file()) {
+        return std::fs::write(path, bytes).map_err(failed);
+    }
+    let staging = Staging::beside(path)?;
+    std::fs::write(staging.path(), bytes).map_err(failed)?;
+    staging.commit()
 }

@@ -46,9 +46,11 @@ const PAINTED_SIZE: [u32; 2] = [512, 424];
 /// # Errors
 /// [`PipelineError`] if a stage fails or a file cannot be written.
 pub fn demo(gpu: &Gpu, folder: &Path, progress: &Progress) -> Result<(), PipelineError> {
+    let target = folder.join(MATERIAL);
+    io::material::check_target(&target)?;
     let source = io::open_zip_bytes("weave64", SAMPLE)?;
     let material = fit(gpu, source.as_ref(), &FitSettings::default(), progress)?;
-    io::material::save(&folder.join(MATERIAL), &material)?;
+    io::material::save(&target, &material)?;
 
     let job = Job { source: source.as_ref(), material: &material, studio: Studio::new(gpu)?, progress };
     progress.expect(4);
@@ -199,7 +201,7 @@ impl Job<'_> {
             // The sample inside the program has every pair.
             return Ok(Map::from_fn(width, height, |_, _| [0.0; 4]));
         };
-        let _stage = self.progress.stage("decode", btf.texels(), 1);
+        let _stage = self.progress.stage("image_decode", btf.texels(), 1);
         let texels = self.source.decode(sample)?;
         let linear = |code: u8| match btf.transfer() {
             Transfer::Srgb => decoded(f32::from(code) / 255.0),

@@ -39,9 +39,11 @@ pub fn fit_within(
         fit,
         provenance: Provenance {
             source: btf.name().to_owned(),
-            views: btf.views().len(),
-            lights: btf.lights().len(),
+            views: btf.views().to_vec(),
+            lights: btf.lights().to_vec(),
             samples: btf.pairs().len(),
+            grid: btf.grid().map(str::to_owned),
+            transfer: btf.transfer(),
             adapter: gpu.adapter().name.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             settings: *settings,

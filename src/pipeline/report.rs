@@ -2,7 +2,6 @@
 
 use std::{
     fmt::Write,
-    fs,
     path::{Path, PathBuf},
 };
 
@@ -132,12 +131,12 @@ impl<'f> Report<'f> {
     /// Adds the table of stages and writes the page as `name`; returns its path.
     ///
     /// # Errors
-    /// [`PipelineError::Write`].
+    /// [`PipelineError`] if it cannot be written.
     pub fn finish(mut self, name: &str, stages: &StageTable) -> Result<PathBuf, PipelineError> {
         self.stages(stages);
         self.html.push_str("</body>\n</html>\n");
         let path = self.folder.join(name);
-        fs::write(&path, self.html).map_err(|source| PipelineError::Write { path: path.clone(), source })?;
+        io::write(&path, self.html.as_bytes())?;
         Ok(path)
     }
 

@@ -30,7 +30,7 @@ fn results_that_cannot_be_written_are_refused_before_the_work() {
     refuse(&["render", "nowhere", "-o", "no/such/a.png"], "there is no folder no/such");
     refuse(&["render", "nowhere", "-o", "a.png"], "it is a folder");
     refuse(&["fit", "nowhere", "-o", "no/such/m.zarr"], "there is no folder no/such");
-    refuse(&["fit", "nowhere", "-o", "taken"], "is no material");
+    refuse(&["fit", "nowhere", "-o", "taken"], "no overpaint material");
     refuse(&["demo", "-o", "taken"], "taken");
     refuse(&["demo", "-o", "d", "--timings", "no/such/t.json"], "there is no folder no/such");
     assert_eq!(fs::read_to_string(folder.path().join("taken")).expect("is there"), "text");

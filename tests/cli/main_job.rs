@@ -77,11 +77,24 @@ fn the_timings_make_sense(gpu: &Gpu) {
 
 fn info_tells_of_the_material(gpu: &Gpu) {
     let text = succeed(gpu, &["info", MATERIAL]);
-    for part in ["64 x 64", "51 views", "2601 samples", "max_iterations", "texel widths", &gpu.adapter().name] {
+    for part in [
+        "64 x 64",
+        "51: 1 at θ 0",
+        "2601, every view under every light",
+        "none of the known ones",
+        "sRGB",
+        "max_iterations",
+        "texel widths",
+        &gpu.adapter().name,
+    ] {
         assert!(text.contains(part), "{part} in {text}");
     }
     let json: Value = serde_json::from_str(&succeed(gpu, &["info", MATERIAL, "--json"])).expect("is JSON");
     assert_eq!((&json["kind"], &json["width"]), (&"material".into(), &64.into()));
+    assert_eq!(json["provenance"]["views"][0], serde_json::json!([0.0, 0.0]));
+    let stored = fs::read_to_string(demonstrated(gpu).join(MATERIAL).join("zarr.json")).expect("is there");
+    let stored: Value = serde_json::from_str(&stored).expect("is JSON");
+    assert_eq!(json["conventions"], stored["attributes"]["conventions"]);
 }
 
 fn reconstructions_are_images_of_the_texel_plane(gpu: &Gpu) {
@@ -106,7 +119,15 @@ fn renders_have_the_size_asked_for(gpu: &Gpu) {
 fn a_material_is_not_written_over_something_else(gpu: &Gpu) {
     let folder = demonstrated(gpu);
     fs::create_dir_all(folder.join("photographs")).expect("is made");
-    refused(&overpaint(folder, &["fit", "cloth.zip", "-o", "photographs"]), 1, "is no material");
+    refused(&overpaint(folder, &["fit", "cloth.zip", "-o", "photographs"]), 1, "no overpaint material");
+    // Files that are no part of a material keep it from being replaced, before anything is computed: the source is not there.
+    fs::create_dir_all(folder.join("noted")).expect("is made");
+    fs::write(folder.join("noted/zarr.json"), fs::read(folder.join(MATERIAL).join("zarr.json")).expect("is there")).expect("is written");
+    fs::write(folder.join("noted/notes.txt"), "mine").expect("is written");
+    refused(&overpaint(folder, &["fit", "nowhere", "-o", "noted"]), 1, "notes.txt");
+    fs::create_dir_all(folder.join("again")).expect("is made");
+    fs::write(folder.join("again/weave64.zarr"), "mine").expect("is written");
+    refused(&overpaint(folder, &["demo", "-o", "again", "--adapter", &gpu.adapter().name]), 1, "no overpaint material");
 }
 
 /// The file is a picture of `size` that is neither black nor broken.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use overpaint::{
-    data::{Fit, FitStatus, Map, Material, Provenance, Svbrdf},
+    data::{Direction, Fit, FitStatus, Map, Material, Provenance, Svbrdf, Transfer},
     io::{self, Kind, material},
     model::FitSettings,
 };
@@ -48,9 +48,11 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
         },
         provenance: Provenance {
             source: "a \"sample\", θ".to_owned(),
-            views: 81,
-            lights: 81,
-            samples: 6561,
+            views: vec![Direction::from_degrees(0.0, 0.0), Direction::from_degrees(23.5, 359.999_999)],
+            lights: [15.1, 30.0, 89.999_999].map(|theta| Direction::from_degrees(theta, 3.0 * theta)).to_vec(),
+            samples: 6,
+            grid: Some("UBO81".to_owned()),
+            transfer: Transfer::Linear,
             adapter: "none".to_owned(),
             version: "0.1.0".to_owned(),
             settings,
@@ -108,6 +110,7 @@ fn the_group_follows_the_zarr_specification() {
     assert_eq!(group["attributes"]["format"], material::MATERIAL_FORMAT);
     assert_eq!(group["attributes"]["conventions"]["rows"], "row 0 is the top row, column 0 the left column");
     assert_eq!(group["attributes"]["provenance"]["settings"]["boundary"], "periodic");
+    assert_eq!(group["attributes"]["provenance"]["views"], serde_json::json!([[0.0, 0.0], [23.5, 359.999_999]]), "degrees");
     let lobe = read("lobe/zarr.json");
     assert_eq!(lobe["shape"], serde_json::json!([20, 300, 4]));
     assert_eq!(lobe["chunk_grid"]["configuration"]["chunk_shape"], serde_json::json!([20, 256, 4]));
@@ -124,6 +127,10 @@ fn another_material_is_replaced() {
     material::save(&path, &other).expect("replaces");
     assert_eq!(bits(&material::load(&path).expect("loads")), bits(&other));
     assert_eq!(entries(folder.path()), 1);
+    // As version 1 had it.
+    std::fs::rename(path.join("fit_objective_without_lobe"), path.join("fit_objective_start")).expect("was there");
+    material::save(&path, &other).expect("replaces");
+    assert_eq!(bits(&material::load(&path).expect("loads")), bits(&other));
 }
 
 fn nothing_else_is_replaced() {
@@ -146,6 +153,7 @@ fn nothing_else_is_replaced() {
         std::fs::create_dir_all(path.join(note).parent().expect("has one")).expect("is writable");
         std::fs::write(path.join(note), "mine").expect("is writable");
         assert_says(material::save(&path, &material), &["also holds", note.split('/').next().expect("is there")]);
+        assert_says(material::check_target(&path), &["also holds"]);
         assert_eq!(std::fs::read_to_string(path.join(note)).expect("is there"), "mine");
     }
     #[cfg(unix)]
@@ -154,6 +162,8 @@ fn nothing_else_is_replaced() {
         let link = folder.path().join("link");
         std::os::unix::fs::symlink(&path, &link).expect("is writable");
         assert_says(material::save(&link, &material), &["it is a link"]);
+        assert_says(material::check_target(&link), &["it is a link"]);
+        material::check_target(&path).expect("a material may be replaced");
     }
     assert_says(material::save(&folder.path().join("no/such/folder"), &material), &["cannot write"]);
 }
@@ -180,7 +190,7 @@ fn missing_and_damaged_arrays_are_named() {
         "diffuse",
         "specular",
         "lobe",
-        "fit_objective_start",
+        "fit_objective_without_lobe",
         "fit_objective",
         "fit_iterations",
         "fit_status",
@@ -221,7 +231,7 @@ fn walk(folder: &Path) -> Vec<PathBuf> {
 fn wrong_metadata_are_named() {
     let (_folder, path) = saved(&sample([4, 4], 1));
     let edits: [(&str, &str, &str, &[&str]); 9] = [
-        ("zarr.json", r#""format_version": 1"#, r#""format_version": 2"#, &["version 2", "version 1"]),
+        ("zarr.json", r#""format_version": 2"#, r#""format_version": 1"#, &["version 1", "version 2"]),
         ("zarr.json", r#""width": 4"#, r#""width": 4000000000000"#, &["expected shape [4, 4000000000000]", "found [4, 4]"]),
         ("zarr.json", r#""width": 4"#, r#""width": -4"#, &["\"width\" is -4"]),
         ("zarr.json", r#""boundary": "periodic""#, r#""boundary": "fractal""#, &["provenance", "fractal"]),

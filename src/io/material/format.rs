@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 pub const MATERIAL_FORMAT: &str = "overpaint material";
 
 /// Version of the form, in the group's attributes.
-pub(super) const VERSION: u64 = 1;
+pub(super) const VERSION: u64 = 2;
 
 /// Rows and columns of a chunk, fewer where the plane has fewer.
 pub(super) const CHUNK: usize = 256;
@@ -41,15 +41,15 @@ pub(super) const LOBE: Layout = layout(
     "1",
     "lobe (C_x l_x v_x + C_y l_y v_y + C_z l_z v_z)^n, Lafortune et al. 1997",
 );
-pub(super) const OBJECTIVE_START: Layout =
-    layout("fit_objective_start", None, "reflectance^2", "mean squared residual at the start of the fit");
+pub(super) const OBJECTIVE_WITHOUT_LOBE: Layout =
+    layout("fit_objective_without_lobe", None, "reflectance^2", "mean squared residual without any lobe");
 pub(super) const OBJECTIVE: Layout = layout("fit_objective", None, "reflectance^2", "mean squared residual at the end of the fit");
 pub(super) const ITERATIONS: Layout = layout("fit_iterations", None, "1", "steps of Levenberg-Marquardt that were tried");
 pub(super) const STATUS: Layout = layout(
     "fit_status",
     None,
     "code",
-    "0 still descending, 1 converged, 2 nothing above the diffuse part, 3 no step lowered the objective",
+    "0 out of iterations, 1 converged, 2 no specular part, 3 settled to rounding: no step lowers the objective in single precision",
 );
 
 /// Names of all arrays.
@@ -61,11 +61,14 @@ pub(super) const NAMES: [&str; 11] = [
     DIFFUSE.name,
     SPECULAR.name,
     LOBE.name,
-    OBJECTIVE_START.name,
+    OBJECTIVE_WITHOUT_LOBE.name,
     OBJECTIVE.name,
     ITERATIONS.name,
     STATUS.name,
 ];
+
+/// Names of arrays that earlier versions of the form had.
+pub(super) const FORMER_NAMES: [&str; 1] = ["fit_objective_start"];
 
 impl Layout {
     /// `[rows, columns]` or `[rows, columns, components]`.
@@ -90,16 +93,4 @@ impl Layout {
         }
         attributes
     }
-}
-
-/// What holds for every array.
-pub(super) fn conventions() -> Value {
-    json!({
-        "rows": "row 0 is the top row, column 0 the left column",
-        "axes": "x right, y up, z out of the surface; directions point away from the surface",
-        "angles": "theta from the normal, phi counter-clockwise from +x, degrees",
-        "color": "linear RGB, sRGB primaries",
-        "reflectance": "pi f_r: a white Lambertian surface has 1; an image's pixel is pi L / E, so that white lit from theta reads cos theta",
-        "model": "pi f_r = diffuse + specular * lobe",
-    })
 }

@@ -2,7 +2,8 @@
 //!
 //! The group's own metadata are written last and the folder is renamed into place, so that a killed [`save`] leaves
 //! nothing that [`load`] takes. Every chunk is stored, and gzip's checksum tells a damaged one; an absent chunk, which
-//! Zarr reads as fill values, is an error here. Further arrays in a group are left alone.
+//! Zarr reads as fill values, is an error here. [`load`] looks at nothing but the arrays that it knows; [`save`] does not
+//! replace a group that holds anything else.
 
 mod format;
 
@@ -19,7 +20,7 @@ use zarrs::{
 use format::Layout;
 pub use format::MATERIAL_FORMAT;
 
-use super::{ArrayFault, IoError, staging::Staging};
+use super::{ArrayFault, IoError, conventions, staging::Staging};
 use crate::data::{Fit, FitStatus, Map, Material, Provenance, ShapeError, Svbrdf};
 
 /// Metadata of a group are far smaller; whatever is larger is none of ours.
@@ -45,7 +46,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
     writer.store(&format::SPECULAR, specular, specular.values().as_flattened())?;
     writer.store(&format::LOBE, lobe, lobe.values().as_flattened())?;
     let Fit { objective_start, objective, iterations, status } = &material.fit;
-    writer.store(&format::OBJECTIVE_START, objective_start, objective_start.values())?;
+    writer.store(&format::OBJECTIVE_WITHOUT_LOBE, objective_start, objective_start.values())?;
     writer.store(&format::OBJECTIVE, objective, objective.values())?;
     writer.store(&format::ITERATIONS, iterations, iterations.values())?;
     let codes: Vec<u8> = status.values().iter().map(|&code| status_code(path, code)).collect::<Result<_, _>>()?;
@@ -58,7 +59,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
         ("format_version", json!(format::VERSION)),
         ("width", json!(width)),
         ("height", json!(height)),
-        ("conventions", format::conventions()),
+        ("conventions", conventions::MATERIAL.iter().copied().collect()),
         ("provenance", provenance),
     ];
     let mut group = GroupBuilder::new();
@@ -109,7 +110,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
             lobe: reader.vectors(&format::LOBE)?,
         },
         fit: Fit {
-            objective_start: reader.scalars(&format::OBJECTIVE_START)?,
+            objective_start: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,
             iterations: reader.scalars(&format::ITERATIONS)?,
             status: Map::new(width, height, status)?,
@@ -141,8 +142,12 @@ fn attributes(path: &Path) -> Result<Value, String> {
     }
 }
 
-/// Refuses a target that holds anything but a material.
-fn check_target(path: &Path) -> Result<(), IoError> {
+/// Checks that [`save`] may put a material at `path`: nothing is there, or a folder that holds a material and nothing else. [`save`]
+/// asks the same; whoever computes for long before it can ask first.
+///
+/// # Errors
+/// [`IoError::Occupied`] if something else stands there, [`IoError::Read`] if it cannot be looked at.
+pub fn check_target(path: &Path) -> Result<(), IoError> {
     let occupied = |found: String| Err(IoError::Occupied { path: path.to_owned(), found });
     if path.symlink_metadata().is_err() {
         return Ok(());
@@ -159,7 +164,7 @@ fn check_target(path: &Path) -> Result<(), IoError> {
         let mut parts = file.iter().map(|part| part.to_str().unwrap_or_default());
         match (parts.next(), parts.next()) {
             (Some("zarr.json"), None) => true,
-            (Some(array), None | Some("zarr.json" | "c")) => format::NAMES.contains(&array),
+            (Some(array), None | Some("zarr.json" | "c")) => format::NAMES.contains(&array) || format::FORMER_NAMES.contains(&array),
             _ => false,
         }
     };
