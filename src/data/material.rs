@@ -43,7 +43,7 @@ impl FitStatus {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     /// Mean squared residual without any lobe, reflectance².
-    pub objective_start: Map<f32>,
+    pub objective_without_lobe: Map<f32>,
     /// Mean squared residual at the end, reflectance².
     pub objective: Map<f32>,
     /// Steps tried.
@@ -136,7 +136,7 @@ impl Material {
                 lobe: self.svbrdf.lobe.repeated(columns, rows),
             },
             fit: Fit {
-                objective_start: self.fit.objective_start.repeated(columns, rows),
+                objective_without_lobe: self.fit.objective_without_lobe.repeated(columns, rows),
                 objective: self.fit.objective.repeated(columns, rows),
                 iterations: self.fit.iterations.repeated(columns, rows),
                 status: self.fit.status.repeated(columns, rows),
@@ -158,7 +158,7 @@ impl Material {
             (self.svbrdf.diffuse.width(), self.svbrdf.diffuse.height()),
             (self.svbrdf.specular.width(), self.svbrdf.specular.height()),
             (self.svbrdf.lobe.width(), self.svbrdf.lobe.height()),
-            (self.fit.objective_start.width(), self.fit.objective_start.height()),
+            (self.fit.objective_without_lobe.width(), self.fit.objective_without_lobe.height()),
             (self.fit.objective.width(), self.fit.objective.height()),
             (self.fit.iterations.width(), self.fit.iterations.height()),
             (self.fit.status.width(), self.fit.status.height()),

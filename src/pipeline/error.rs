@@ -33,14 +33,6 @@ pub enum PipelineError {
     /// A map came back in another shape than it was asked for: a bug of this program.
     #[error(transparent)]
     Shape(#[from] ShapeError),
-    /// A file of a report could not be written.
-    #[error("{}: cannot be written. Check that the folder is writable and the disk has room", path.display())]
-    Write {
-        /// The file.
-        path: std::path::PathBuf,
-        /// The system's reason.
-        source: std::io::Error,
-    },
     /// Every light is too low for the reflectance to be computed.
     #[error(
         "all {samples} samples of \"{source_name}\" have lights lower than cos θ = {min_cos_light}, so that no reflectance can be computed. Lower min_cos_light"

@@ -83,7 +83,7 @@ impl Found {
             lobe: Map::new(width, height, self.lobes)?,
         };
         let fit = Fit {
-            objective_start: objectives.map(|[start, _]| *start),
+            objective_without_lobe: objectives.map(|[start, _]| *start),
             objective: objectives.map(|[_, end]| *end),
             iterations: outcomes.map(|[_, iterations]| *iterations),
             status: outcomes.map(|[status, _]| *status),

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 pub const MATERIAL_FORMAT: &str = "overpaint material";
 
 /// Version of the form, in the group's attributes.
-pub(super) const VERSION: u64 = 2;
+pub(super) const VERSION: u64 = 1;
 
 /// Rows and columns of a chunk, fewer where the plane has fewer.
 pub(super) const CHUNK: usize = 256;
@@ -66,9 +66,6 @@ pub(super) const NAMES: [&str; 11] = [
     ITERATIONS.name,
     STATUS.name,
 ];
-
-/// Names of arrays that earlier versions of the form had.
-pub(super) const FORMER_NAMES: [&str; 1] = ["fit_objective_start"];
 
 impl Layout {
     /// `[rows, columns]` or `[rows, columns, components]`.

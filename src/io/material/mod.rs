@@ -45,8 +45,8 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
     writer.store(&format::DIFFUSE, diffuse, diffuse.values().as_flattened())?;
     writer.store(&format::SPECULAR, specular, specular.values().as_flattened())?;
     writer.store(&format::LOBE, lobe, lobe.values().as_flattened())?;
-    let Fit { objective_start, objective, iterations, status } = &material.fit;
-    writer.store(&format::OBJECTIVE_WITHOUT_LOBE, objective_start, objective_start.values())?;
+    let Fit { objective_without_lobe, objective, iterations, status } = &material.fit;
+    writer.store(&format::OBJECTIVE_WITHOUT_LOBE, objective_without_lobe, objective_without_lobe.values())?;
     writer.store(&format::OBJECTIVE, objective, objective.values())?;
     writer.store(&format::ITERATIONS, iterations, iterations.values())?;
     let codes: Vec<u8> = status.values().iter().map(|&code| status_code(path, code)).collect::<Result<_, _>>()?;
@@ -110,7 +110,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
             lobe: reader.vectors(&format::LOBE)?,
         },
         fit: Fit {
-            objective_start: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
+            objective_without_lobe: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,
             iterations: reader.scalars(&format::ITERATIONS)?,
             status: Map::new(width, height, status)?,
@@ -164,7 +164,7 @@ pub fn check_target(path: &Path) -> Result<(), IoError> {
         let mut parts = file.iter().map(|part| part.to_str().unwrap_or_default());
         match (parts.next(), parts.next()) {
             (Some("zarr.json"), None) => true,
-            (Some(array), None | Some("zarr.json" | "c")) => format::NAMES.contains(&array) || format::FORMER_NAMES.contains(&array),
+            (Some(array), None | Some("zarr.json" | "c")) => format::NAMES.contains(&array),
             _ => false,
         }
     };
