@@ -8,7 +8,7 @@
 //! - [`pipeline`]: chains stages, owns buffers, submits, reports progress.
 //! - [`stage`]: host side of the compute stages; [`render`]: of the render passes.
 //! - [`gpu`]: all of wgpu; [`wgsl`]: the embedded kernels.
-//! - [`reference`]: a CPU twin of each stage, in f64, for its tests.
+//! - [`mod@reference`]: a CPU twin of each stage, in f64, for its tests.
 //! - [`io`]: readers and writers.
 //! - [`model`]: physics and settings; [`data`]: plain containers.
 
