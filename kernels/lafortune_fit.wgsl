@@ -106,7 +106,8 @@ fn gram_at(texel: u32, candidate: vec4<f32>, amplitude: f32) -> Gram {
     return total;
 }
 
-// Solves the symmetric positive definite system M x = b, M with unit-sized diagonal, by Cholesky.
+// Solves the symmetric positive definite system M x = b by Cholesky. M's diagonal is 1 plus the damping, so its pivots are
+// to be held against 1.
 fn solve(diagonal: vec4<f32>, mixed: vec4<f32>, mixed_nu: vec2<f32>, b: vec4<f32>) -> vec4<f32> {
     // A pivot that rounding has pushed to zero: the direction is left to the damping.
     let tiny = 1e-6;

@@ -1,8 +1,7 @@
-// How a texel plane goes on beyond its edge (model::Boundary). Indices reach at most one plane beyond either edge.
-const PERIODIC: u32 = 0u;
+// How a texel plane goes on beyond its edge (model::Boundary): 0 repeats it, 1 mirrors it.
 const MIRROR: u32 = 1u;
 
-// The texel of 0..count that stands for `index` under `boundary`: repeated, or mirrored with the edge texel doubled.
+// The texel of 0..count that stands for any `index` under `boundary`: repeated, or mirrored with the edge texel doubled.
 fn wrap(index: i32, count: u32, boundary: u32) -> u32 {
     let n = i32(count);
     if boundary == MIRROR {

@@ -1,8 +1,8 @@
 //! What a job tells while it runs and how long each stage took.
 //!
 //! A stage is timed on the wall by a guard that lives as long as the stage, and on the adapter by the pass times handed
-//! to that guard. A stage that is entered again, for the next tile, adds to the same row. Stages may overlap: one thread
-//! decodes while another fits, so the rows may sum to more than the job took.
+//! to that guard. A stage that is entered again, for the next tile, adds to the same row. Stages may overlap, so the rows may
+//! sum to more than the job took.
 
 use std::{
     fmt,
@@ -141,7 +141,7 @@ impl Drop for StageGuard<'_> {
 /// Time of one stage, summed over its tiles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StageTime {
-    /// Stem of the stage.
+    /// Name of the stage: the stem of its kernel, or what the host does.
     pub name: String,
     /// Seconds on the wall, transfers and waiting included.
     pub wall_seconds: f64,
