@@ -1,6 +1,6 @@
 // Lists the texels whose Lafortune fit still runs, in their order, so that finished ones stop costing lanes of the next steps.
 // One workgroup walks all texels, a workgroup's width at a time, with a prefix sum of the flags of each (Hillis, Steele 1986).
-// Twin: none of its own; the fit's results are the same with any list that holds every running texel once.
+// Twin: reference::lafortune_fit, of the whole stage: its results are the same with any list that holds every running texel once.
 #import lafortune_state
 
 struct Params {

@@ -33,7 +33,7 @@ pub struct FitSettings {
     pub tolerance: f64,
     /// The lobe's exponent is held to [least, greatest]. Below 1 a lobe has a vertical edge where its base meets zero, by which the
     /// fit follows the edges of shadows: relative RMS of flat reconstructions at a least exponent of 1, 0.5 and 0.1 is 0.277,
-    /// 0.270 and 0.267 on the path-traced weave, 0.423, 0.398 and 0.393 on the blocks. The lower the bound, the more local minima
+    /// 0.269 and 0.263 on the path-traced weave, 0.423, 0.398 and 0.391 on the blocks. The lower the bound, the more local minima
     /// (one at every sample on the edge) and the harder the edge in pictures between measured directions.
     pub exponents: [f64; 2],
     /// How ρ_s is found.
