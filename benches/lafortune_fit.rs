@@ -32,19 +32,20 @@ fn compare(gpu: &Gpu, path: &Path) -> Result<(), Box<dyn Error>> {
     let btf = source.btf();
     let samples = Samples::new((0..btf.pairs().len()).map(|sample| btf.directions(sample)).collect());
     let texels = TEXELS.min(btf.texels());
-    let mut codes: Vec<u32> = Vec::with_capacity(samples.len() * texels);
+    let mut values = vec![[f16::ZERO; OCTET]; 3 * samples.octets() * texels];
     for sample in 0..samples.len() {
-        codes.extend(source.decode(sample)?[..texels].iter().map(|pixel| u32::from_le_bytes(*pixel)));
+        for (texel, rgb) in source.picture(sample)?.values()[..texels].iter().enumerate() {
+            for (channel, &value) in rgb.iter().enumerate() {
+                values[(channel * samples.octets() + sample / OCTET) * texels + texel][sample % OCTET] = f16::from_f32(value);
+            }
+        }
     }
 
     let settings = FitSettings::default();
-    let (decode, brdf_values) = (stage::SrgbDecode::new(gpu)?, stage::BrdfValues::new(gpu)?);
+    let brdf_values = stage::BrdfValues::new(gpu)?;
     let (percentile, specular_residual) = (stage::Percentile::new(gpu)?, stage::SpecularResidual::new(gpu)?);
     let (lafortune_fit, specular_scale) = (stage::LafortuneFit::new(gpu)?, stage::SpecularScale::new(gpu)?);
-    let codes = gpu.upload("codes", &codes)?;
-    let mut recorder = gpu.recorder();
-    let radiance = decode.record(&mut recorder, &codes, samples.len(), texels)?;
-    gpu.submit(recorder).wait(gpu)?;
+    let radiance = stage::Tile { values: gpu.upload("radiance", &values)?, texels, samples: samples.len() };
 
     let start = Instant::now();
     let mut recorder = gpu.recorder();

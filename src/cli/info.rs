@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::{CliError, say};
 use crate::{
-    data::{Btf, Direction, FitStatus, Material, Provenance, Transfer},
+    data::{Btf, Direction, Encoding, FitStatus, Material, Provenance, RowOrder, Transfer},
     io::{
         self,
         conventions::{self, Convention},
@@ -76,7 +76,7 @@ struct Measured {
     samples: usize,
     every_pair: bool,
     grid: Option<String>,
-    transfer: Transfer,
+    encoding: Encoding,
     /// (θ, φ) in degrees.
     views: Vec<(f64, f64)>,
     /// (θ, φ) in degrees.
@@ -89,19 +89,19 @@ impl Measured {
             samples: btf.pairs().len(),
             every_pair: btf.is_product(),
             grid: btf.grid().map(str::to_owned),
-            transfer: btf.transfer(),
+            encoding: *btf.encoding(),
             views: degrees(btf.views()),
             lights: degrees(btf.lights()),
         }
     }
 
     fn of_provenance(provenance: &Provenance) -> Self {
-        let Provenance { views, lights, samples, grid, transfer, .. } = provenance;
+        let Provenance { views, lights, samples, grid, encoding, .. } = provenance;
         Self {
             samples: *samples,
             every_pair: *samples == views.len() * lights.len(),
             grid: grid.clone(),
-            transfer: *transfer,
+            encoding: *encoding,
             views: degrees(views),
             lights: degrees(lights),
         }
@@ -191,16 +191,28 @@ impl Lines {
         }
     }
 
-    fn measured(&mut self, Measured { samples, every_pair, grid, transfer, views, lights }: &Measured) {
+    fn measured(&mut self, Measured { samples, every_pair, grid, encoding, views, lights }: &Measured) {
         self.add("views", rings(views));
         self.add("lights", rings(lights));
         self.add("samples", format!("{samples}{}", if *every_pair { ", every view under every light" } else { "" }));
         self.add("grid", grid.as_deref().unwrap_or("none of the known ones"));
+        let Encoding { transfer, includes_cosine, rows, scale, texels_per_mm } = encoding;
         let transfer = match transfer {
-            Transfer::Srgb => "sRGB",
-            Transfer::Linear => "linear",
+            Transfer::Srgb => "sRGB".to_owned(),
+            Transfer::Gamma(gamma) => format!("gamma {gamma}"),
+            Transfer::Linear => "linear".to_owned(),
         };
         self.add("transfer", transfer);
+        self.add("cosine", if *includes_cosine { "in the stored values" } else { "not in the stored values, multiplied in" });
+        let rows = match rows {
+            RowOrder::TopDown => "top row first",
+            RowOrder::BottomUp => "bottom row first",
+        };
+        self.add("rows", rows);
+        self.add("scale", scale);
+        if let Some(texels) = texels_per_mm {
+            self.add("texels per mm", texels);
+        }
     }
 }
 

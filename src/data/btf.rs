@@ -1,7 +1,7 @@
 //! The description of a BTF: its texel plane, its (view, light) pairs and its conventions. The texels themselves come
 //! from a reader in [`io`](crate::io).
 
-use super::Direction;
+use super::{Direction, Encoding};
 
 /// One sample: which view and which light, as indices into [`Btf::views`] and [`Btf::lights`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -10,16 +10,6 @@ pub struct Pair {
     pub view: usize,
     /// Index of the light.
     pub light: usize,
-}
-
-/// How stored values become linear light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Transfer {
-    /// The sRGB curve, IEC 61966-2-1.
-    Srgb,
-    /// Already linear.
-    Linear,
 }
 
 /// What keeps a list of directions and pairs from being a BTF.
@@ -63,7 +53,7 @@ pub struct Btf {
     views: Vec<Direction>,
     lights: Vec<Direction>,
     pairs: Vec<Pair>,
-    transfer: Transfer,
+    encoding: Encoding,
 }
 
 impl Btf {
@@ -72,7 +62,7 @@ impl Btf {
     /// # Errors
     /// [`BtfError`] if anything is empty, a pair is out of range or a direction below the horizon.
     pub fn new(
-        name: String, [width, height]: [usize; 2], views: Vec<Direction>, lights: Vec<Direction>, pairs: Vec<Pair>, transfer: Transfer,
+        name: String, [width, height]: [usize; 2], views: Vec<Direction>, lights: Vec<Direction>, pairs: Vec<Pair>, encoding: Encoding,
     ) -> Result<Self, BtfError> {
         if pairs.is_empty() {
             return Err(BtfError::Empty);
@@ -87,7 +77,7 @@ impl Btf {
         if let Some(&direction) = views.iter().chain(&lights).find(above) {
             return Err(BtfError::BelowHorizon { direction });
         }
-        Ok(Self { name, width, height, views, lights, pairs, transfer })
+        Ok(Self { name, width, height, views, lights, pairs, encoding })
     }
 
     /// Name of the material.
@@ -133,10 +123,10 @@ impl Btf {
         (self.views[view], self.lights[light])
     }
 
-    /// How the reader's stored values become linear light.
+    /// How the stored values become radiance.
     #[must_use]
-    pub fn transfer(&self) -> Transfer {
-        self.transfer
+    pub fn encoding(&self) -> &Encoding {
+        &self.encoding
     }
 
     /// Whether every view was photographed under every light, in view-major order.

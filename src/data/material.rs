@@ -1,6 +1,6 @@
 //! What is recovered from a BTF: geometry and per-texel reflectance.
 
-use super::{Direction, Map, ShapeError, Transfer};
+use super::{Direction, Encoding, Map, ShapeError};
 use crate::model::FitSettings;
 
 /// Per-texel reflectance f_r = ρ_d + ρ_s·(C·ω_i ω_o)^n, in π·f_r units (Lafortune et al. 1997; thesis eq. 3.3).
@@ -67,8 +67,8 @@ pub struct Provenance {
     pub samples: usize,
     /// Name of the source's direction grid if it is a known one.
     pub grid: Option<String>,
-    /// How the source's stored values became linear light.
-    pub transfer: Transfer,
+    /// How the source's stored values became radiance.
+    pub encoding: Encoding,
     /// The adapter that computed it.
     pub adapter: String,
     /// Version of overpaint.

@@ -1,15 +1,19 @@
 //! Plain containers: directions, the description of a BTF, texel maps, the material. Shapes are checked once, at
 //! construction.
 
+mod block;
 mod btf;
 mod direction;
+mod encoding;
 mod map;
 mod material;
 mod plane_view;
 mod samples;
 
-pub use btf::{Btf, BtfError, Pair, Transfer};
+pub use block::Block;
+pub use btf::{Btf, BtfError, Pair};
 pub use direction::Direction;
+pub use encoding::{Encoding, RowOrder, Transfer};
 pub use map::{Map, ShapeError};
 pub use material::{Fit, FitStatus, Material, Provenance, Svbrdf};
 pub use plane_view::PlaneView;

@@ -5,6 +5,7 @@ use std::{
     io::{Cursor, Read, Seek},
     path::{Path, PathBuf},
     sync::Arc,
+    time::UNIX_EPOCH,
 };
 
 use zip::{
@@ -65,6 +66,25 @@ impl Archive {
         let path = PathBuf::from(name);
         let (names, metadata) = directory(&path, Cursor::new(bytes))?;
         Ok(Self { path, names, store: Store::ZipBytes(bytes, metadata) })
+    }
+
+    /// A text that is another when a name, a size or a time of modification is another.
+    pub(super) fn fingerprint(&self) -> String {
+        let mut hash = crc32fast::Hasher::new();
+        let mut add = |path: &Path| {
+            if let Ok(metadata) = path.metadata() {
+                let modified = metadata.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();
+                hash.update(&metadata.len().to_le_bytes());
+                hash.update(&modified.as_nanos().to_le_bytes());
+            }
+        };
+        match &self.store {
+            Store::Folder => self.names.iter().for_each(|name| add(&self.path.join(name))),
+            Store::Zip(_) => add(&self.path),
+            Store::ZipBytes(bytes, _) => hash.update(bytes),
+        }
+        self.names.iter().for_each(|name| hash.update(name.as_bytes()));
+        format!("{} files, {:08x}", self.names.len(), hash.finalize())
     }
 
     /// Where it is.

@@ -16,7 +16,7 @@ mod tree;
 use std::path::Path;
 
 pub use error::{ArrayFault, IoError};
-pub use source::{Source, open, open_zip_bytes};
+pub use source::{ReadOptions, Source, open, open_with, open_zip_bytes};
 pub use staging::write;
 
 /// What a path holds.

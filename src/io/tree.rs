@@ -6,10 +6,12 @@
 
 use std::{collections::BTreeSet, sync::LazyLock};
 
+use half::f16;
+use rayon::prelude::*;
 use regex::Regex;
 
-use super::{IoError, Source, archive::Archive, raster};
-use crate::data::{Btf, Direction, Pair, Transfer};
+use super::{IoError, ReadOptions, Source, archive::Archive, raster};
+use crate::data::{Block, Btf, Direction, Encoding, Pair, RowOrder, Transfer};
 
 /// Missing pairs that an error lists.
 const LISTED: usize = 4;
@@ -52,7 +54,7 @@ pub(super) struct ImageTree {
 
 impl ImageTree {
     /// Sorts the images by their directions, checks that every pair is there once, and reads the size of the first.
-    pub(super) fn open(archive: Archive) -> Result<Self, IoError> {
+    pub(super) fn open(archive: Archive, options: &ReadOptions) -> Result<Self, IoError> {
         let images: Vec<usize> = (0..archive.names().len()).filter(|&file| extension(&archive.names()[file]).is_some()).collect();
         let mut samples: Vec<Sample> = images.iter().filter_map(|&file| sample(file, &archive.names()[file])).collect();
         let path = || archive.path().to_owned();
@@ -75,7 +77,14 @@ impl ImageTree {
         let size = raster::size(&archive.label(samples[0].file), &archive.read(samples[0].file)?)?;
         let pairs = (0..views.len()).flat_map(|view| (0..lights.len()).map(move |light| Pair { view, light })).collect();
         let directions = |angles: Vec<Angles>| angles.into_iter().map(Angles::direction).collect();
-        let btf = Btf::new(archive.stem(), size, directions(views), directions(lights), pairs, Transfer::Srgb)?;
+        let btf = Btf::new(
+            archive.stem(),
+            size,
+            directions(views),
+            directions(lights),
+            pairs,
+            options.encoding(Encoding::photograph(Transfer::Srgb)),
+        )?;
         Ok(Self { archive, btf, samples })
     }
 
@@ -90,9 +99,30 @@ impl Source for ImageTree {
         &self.btf
     }
 
-    fn decode(&self, sample: usize) -> Result<Vec<[u8; 4]>, IoError> {
-        let file = self.samples[sample].file;
-        raster::decode(&self.archive.label(file), &self.archive.read(file)?, self.btf.size())
+    fn read(&self, samples: &[usize], block: Block, radiance: &mut [f16], done: &(dyn Fn(usize) + Sync)) -> Result<(), IoError> {
+        let (texels, [width, height]) = (block.texels(), self.btf.size());
+        assert!(block.is_within([width, height]) && radiance.len() == 3 * samples.len() * texels, "the block and what it is read into");
+        let encoding = self.btf.encoding();
+        radiance.par_chunks_exact_mut(3 * texels).zip(samples).try_for_each(|(values, &sample)| {
+            let file = self.samples[sample].file;
+            let picture = raster::decode(&self.archive.label(file), &self.archive.read(file)?, [width, height])?;
+            let factor = encoding.factor(self.btf.directions(sample).1);
+            let radiance: Vec<f16> = (0..=255_u8).map(|code| f16::from_f64(factor * encoding.linear(f64::from(code) / 255.0))).collect();
+            for (index, row) in block.rows().enumerate() {
+                let stored = if encoding.rows == RowOrder::TopDown { row } else { height - 1 - row };
+                for (at, pixel) in picture[stored * width..][block.columns()].iter().enumerate() {
+                    for channel in 0..3 {
+                        values[channel * texels + index * block.width + at] = radiance[usize::from(pixel[channel])];
+                    }
+                }
+            }
+            done(1);
+            Ok(())
+        })
+    }
+
+    fn fingerprint(&self) -> String {
+        self.archive.fingerprint()
     }
 }
 

@@ -7,7 +7,7 @@ use super::{
     report::{Cell, Figure, Report, Row},
 };
 use crate::{
-    data::{Btf, Direction, Map, Material, PlaneView, Transfer},
+    data::{Btf, Direction, Map, Material, PlaneView},
     gpu::Gpu,
     io::{self, Source},
     model::{FitSettings, Layer, Paint, Pattern, Relief, color::linear_from_srgb, pigments},
@@ -202,15 +202,7 @@ impl Job<'_> {
             return Ok(Map::from_fn(width, height, |_, _| [0.0; 4]));
         };
         let _stage = self.progress.stage("image_decode", btf.texels(), 1);
-        let texels = self.source.decode(sample)?;
-        let linear = |code: u8| match btf.transfer() {
-            Transfer::Srgb => decoded(f32::from(code) / 255.0),
-            Transfer::Linear => f32::from(code) / 255.0,
-        };
-        Ok(Map::from_fn(width, height, |column, row| {
-            let [red, green, blue, _] = texels[row * width + column];
-            [linear(red), linear(green), linear(blue), 1.0]
-        }))
+        Ok(self.source.picture(sample)?.map(|&[red, green, blue]| [red, green, blue, 1.0]))
     }
 }
 

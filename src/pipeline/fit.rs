@@ -43,7 +43,7 @@ pub fn fit_within(
             lights: btf.lights().to_vec(),
             samples: btf.pairs().len(),
             grid: btf.grid().map(str::to_owned),
-            transfer: btf.transfer(),
+            encoding: *btf.encoding(),
             adapter: gpu.adapter().name.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             settings: *settings,

@@ -2,7 +2,7 @@
 
 use super::{
     PipelineError, Progress,
-    tiles::{Memory, for_each_tile, run},
+    tiles::{Memory, for_each_tile, octets, run},
 };
 use crate::{
     data::{Direction, Map},
@@ -30,15 +30,11 @@ pub(super) fn recover(
     let btf = source.btf();
     let samples = btf.zenith_samples();
     let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
-    let decode = stage::SrgbDecode::new(gpu)?;
     let stereo = stage::PhotometricStereo::new(gpu)?;
     let mut measured: Vec<[f32; 4]> = Vec::with_capacity(btf.texels());
-    for_each_tile(gpu, source, &samples, memory, progress, |texels, codes| {
+    for_each_tile(gpu, source, &samples, memory, progress, |texels, halves| {
         let size = [texels.len(), samples.len()];
-        let tile = run(gpu, progress, "srgb_decode", size, |recorder| {
-            let codes = gpu.upload("codes", codes)?;
-            decode.record(recorder, &codes, samples.len(), texels.len())
-        })?;
+        let tile = octets(gpu, halves, samples.len(), texels.len())?;
         let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights))?;
         measured.extend(normals.read(gpu)?);
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::{
     PipelineError, Progress,
-    tiles::{Memory, for_each_tile, run},
+    tiles::{Memory, for_each_tile, octets, run},
 };
 use crate::{
     data::{Fit, Map, Samples, Svbrdf},
@@ -26,7 +26,6 @@ pub(super) fn recover(
         });
     }
     let samples = Samples::new(lit.iter().map(|&sample| btf.directions(sample)).collect());
-    let decode = stage::SrgbDecode::new(gpu)?;
     let brdf_values = stage::BrdfValues::new(gpu)?;
     let percentile = stage::Percentile::new(gpu)?;
     let specular_residual = stage::SpecularResidual::new(gpu)?;
@@ -34,13 +33,10 @@ pub(super) fn recover(
     let specular_scale = stage::SpecularScale::new(gpu)?;
 
     let mut found = Found::default();
-    for_each_tile(gpu, source, &lit, memory, progress, |texels, codes| {
+    for_each_tile(gpu, source, &lit, memory, progress, |texels, halves| {
         let texels = texels.len();
         let size = [texels, samples.len()];
-        let radiance = run(gpu, progress, "srgb_decode", size, |recorder| {
-            let codes = gpu.upload("codes", codes)?;
-            decode.record(recorder, &codes, samples.len(), texels)
-        })?;
+        let radiance = octets(gpu, halves, samples.len(), texels)?;
         let reflectance = run(gpu, progress, "brdf_values", size, |recorder| brdf_values.record(recorder, &radiance, &samples))?;
         drop(radiance);
         let diffuse =

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use half::f16;
 
 use super::{PipelineError, Progress};
 use crate::{
-    data::OCTET,
+    data::{Block, OCTET},
     gpu::{Gpu, Recorder},
     io::Source,
-    stage::LafortuneFit,
+    stage::{LafortuneFit, Tile},
 };
 
 /// What may be held at once.
@@ -31,53 +31,46 @@ impl Default for Memory {
 /// Texels of a tile with `samples` samples, so that its largest array fits: the halves `[channel][octet][texel]`, or with few
 /// samples what a stage keeps of each texel.
 fn tile_texels(gpu: &Gpu, memory: Memory, samples: usize) -> usize {
-    let halves = 3 * samples.next_multiple_of(OCTET) * size_of::<half::f16>();
+    let halves = 3 * samples.next_multiple_of(OCTET) * size_of::<f16>();
     let texel = halves.max(LafortuneFit::STATE_BYTES) as u64;
     usize::try_from(gpu.max_array_bytes().min(memory.adapter) / texel).unwrap_or(usize::MAX).max(1)
 }
 
-/// Calls `tile(texels, codes)` for each tile of the source, with the codes `[sample][texel]` of the given samples. Each image is decoded
-/// once a band of tiles: once in all where the band holds the whole plane.
+/// Calls `tile(texels, halves)` for each tile of the source, with the radiance `[sample][channel][texel]` of the given samples.
 pub(super) fn for_each_tile(
     gpu: &Gpu, source: &dyn Source, samples: &[usize], memory: Memory, progress: &Progress,
-    mut tile: impl FnMut(Range<usize>, &[u32]) -> Result<(), PipelineError>,
+    mut tile: impl FnMut(Range<usize>, &[f16]) -> Result<(), PipelineError>,
 ) -> Result<(), PipelineError> {
-    let texels = source.btf().texels();
+    let btf = source.btf();
+    let [width, height] = btf.size();
+    let texels = btf.texels();
     let tile_texels = tile_texels(gpu, memory, samples.len()).min(texels);
-    let tiles_a_band = (memory.host / (samples.len() * tile_texels * size_of::<u32>())).max(1);
-    let band_texels = (tiles_a_band * tile_texels).min(texels);
-    progress.expect(texels.div_ceil(band_texels) * samples.len());
-    for start in (0..texels).step_by(band_texels) {
-        let band = start..(start + band_texels).min(texels);
-        let codes = decode_band(source, samples, band.clone(), progress)?;
-        for start in band.clone().step_by(tile_texels) {
-            let texels = start..(start + tile_texels).min(band.end);
-            if texels == band {
-                tile(texels, &codes)?;
-            } else {
-                let inside = texels.start - band.start..texels.end - band.start;
-                let rows = codes.chunks_exact(band.len());
-                let part: Vec<u32> = rows.flat_map(|row| &row[inside.clone()]).copied().collect();
-                tile(texels, &part)?;
-            }
+    let rows = (memory.host / (samples.len() * width * 6)).clamp(1, height);
+    progress.expect(height.div_ceil(rows) * samples.len());
+    for row in (0..height).step_by(rows) {
+        let block = Block { column: 0, row, width, height: rows.min(height - row) };
+        let mut radiance = vec![f16::ZERO; samples.len() * 3 * block.texels()];
+        let stage = progress.stage("read", block.texels(), samples.len());
+        source.read(samples, block, &mut radiance, &|samples| progress.advance(samples))?;
+        drop(stage);
+        for start in (0..block.texels()).step_by(tile_texels) {
+            let inside = start..(start + tile_texels).min(block.texels());
+            let part: Vec<f16> = radiance.chunks_exact(block.texels()).flat_map(|row| &row[inside.clone()]).copied().collect();
+            tile(row * width + inside.start..row * width + inside.end, &part)?;
         }
     }
     Ok(())
 }
 
-/// Decodes the given samples' images, on all cores, and keeps the codes `[sample][texel]` of a band of texels.
-fn decode_band(source: &dyn Source, samples: &[usize], band: Range<usize>, progress: &Progress) -> Result<Vec<u32>, PipelineError> {
-    let _stage = progress.stage("image_decode", band.len(), samples.len());
-    let mut codes = vec![0_u32; samples.len() * band.len()];
-    codes.par_chunks_exact_mut(band.len()).zip(samples).try_for_each(|(row, &sample)| {
-        let image = source.decode(sample)?;
-        for (code, pixel) in row.iter_mut().zip(&image[band.clone()]) {
-            *code = u32::from_le_bytes(*pixel);
-        }
-        progress.advance(1);
-        Ok::<(), PipelineError>(())
-    })?;
-    Ok(codes)
+/// Octets of radiance `[sample][channel][texel]`.
+pub(super) fn octets(gpu: &Gpu, radiance: &[f16], samples: usize, texels: usize) -> Result<Tile, PipelineError> {
+    let octets = samples.div_ceil(OCTET);
+    let mut values = vec![[f16::ZERO; OCTET]; 3 * octets * texels];
+    for (index, &half) in radiance.iter().enumerate() {
+        let (texel, channel, sample) = (index % texels, index / texels % 3, index / texels / 3);
+        values[(channel * octets + sample / OCTET) * texels + texel][sample % OCTET] = half;
+    }
+    Ok(Tile { values: gpu.upload("radiance", &values)?, texels, samples })
 }
 
 /// Records a stage, runs it and notes its time.

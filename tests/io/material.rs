@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use overpaint::{
-    data::{Direction, Fit, FitStatus, Map, Material, Provenance, Svbrdf, Transfer},
+    data::{Direction, Encoding, Fit, FitStatus, Map, Material, Provenance, Svbrdf, Transfer},
     io::{self, Kind, material},
     model::FitSettings,
 };
@@ -52,7 +52,7 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
             lights: [15.1, 30.0, 89.999_999].map(|theta| Direction::from_degrees(theta, 3.0 * theta)).to_vec(),
             samples: 6,
             grid: Some("UBO81".to_owned()),
-            transfer: Transfer::Linear,
+            encoding: Encoding::photograph(Transfer::Linear),
             adapter: "none".to_owned(),
             version: "0.1.0".to_owned(),
             settings,

@@ -9,7 +9,10 @@ mod tree;
 use std::{io::Cursor, path::Path};
 
 use image::{ImageFormat, RgbImage};
-use overpaint::io::IoError;
+use overpaint::{
+    io::{IoError, Source},
+    model::color,
+};
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
     [archive::tests(), material::tests(), measured::tests(), picture::tests(), tree::tests()].into_iter().flatten().collect()
@@ -43,6 +46,12 @@ fn write_tree(folder: &Path, files: &[(String, Vec<u8>)]) {
         std::fs::create_dir_all(path.parent().expect("is below the folder")).expect("is writable");
         std::fs::write(path, bytes).expect("is writable");
     }
+}
+
+/// The sRGB codes of a sample's radiance, RGBA: those that an 8-bit image stored, since a half is finer than a code.
+fn codes(source: &dyn Source, sample: usize) -> Result<Vec<[u8; 4]>, IoError> {
+    let code = |linear: f32| (255.0 * color::srgb_from_linear(f64::from(linear))).round() as u8;
+    Ok(source.picture(sample)?.values().iter().map(|&[r, g, b]| [code(r), code(g), code(b), 255]).collect())
 }
 
 /// The error's text, which must contain each of `parts`.

@@ -8,7 +8,7 @@ use overpaint::{
 use rayon::prelude::*;
 use tempfile::TempDir;
 
-use super::{PAIRS, assert_says, bonn_name, encoded, small_tree, write_tree};
+use super::{PAIRS, assert_says, bonn_name, codes, encoded, small_tree, write_tree};
 
 crate::suite! { plain:
     a_complete_tree_is_read_in_order,
@@ -49,14 +49,14 @@ fn a_complete_tree_is_read_in_order() {
     let btf = source.btf();
     assert_eq!(io::kind(folder.path()), Kind::Source);
     assert_eq!(btf.name(), folder.path().file_name().expect("has one").to_str().expect("is ASCII"));
-    assert_eq!((btf.size(), btf.views().len(), btf.lights().len(), btf.transfer()), ([12, 9], 2, 3, Transfer::Srgb));
+    assert_eq!((btf.size(), btf.views().len(), btf.lights().len(), btf.encoding().transfer), ([12, 9], 2, 3, Transfer::Srgb));
     assert!(btf.is_product());
     for (sample, pair) in PAIRS.iter().enumerate() {
         let (view, light) = btf.directions(sample);
         let found = [view.degrees().0, view.degrees().1, light.degrees().0, light.degrees().1].map(|angle| angle.round() as u32);
         assert_eq!(&found, pair);
     }
-    let decoded: Vec<_> = (0..6_usize).into_par_iter().map(|sample| source.decode(sample).expect("decodes")).collect();
+    let decoded: Vec<_> = (0..6_usize).into_par_iter().map(|sample| codes(source.as_ref(), sample).expect("decodes")).collect();
     for (sample, texels) in decoded.iter().enumerate() {
         let expected = image::load_from_memory(&encoded(ImageFormat::Jpeg, [12, 9], sample)).expect("decodes").into_rgba8();
         assert_eq!(texels.as_flattened(), expected.as_raw().as_slice());
@@ -68,7 +68,7 @@ fn every_format_is_read() {
         [(ImageFormat::Png, "png"), (ImageFormat::Bmp, "BMP"), (ImageFormat::Tiff, "tif"), (ImageFormat::Tiff, "TIFF")]
     {
         let folder = folder(&[(bonn_name(0, extension), encoded(format, [12, 9], 3))]);
-        let texels = io::open(folder.path()).expect("opens").decode(0).expect("decodes");
+        let texels = codes(io::open(folder.path()).expect("opens").as_ref(), 0).expect("decodes");
         // Row 0 is the top row, column 0 the left one.
         for (index, texel) in texels.iter().enumerate() {
             assert_eq!(*texel, [40 + 5 * (index % 12) as u8, 40 + 5 * (index / 12) as u8, 145, 255], "{extension}");
@@ -79,7 +79,7 @@ fn every_format_is_read() {
         let mut bytes = std::io::Cursor::new(Vec::new());
         gray.write_to(&mut bytes, format).expect("encodes");
         let folder = folder(&[(bonn_name(0, extension), bytes.into_inner())]);
-        let texels = io::open(folder.path()).expect("opens").decode(0).expect("decodes");
+        let texels = codes(io::open(folder.path()).expect("opens").as_ref(), 0).expect("decodes");
         assert!(texels.iter().all(|texel| texel[0] == texel[1] && texel[1] == texel[2] && texel[3] == 255), "{extension}");
     }
 }
@@ -133,8 +133,8 @@ fn images_of_different_sizes_are_refused() {
         files[3] = (bonn_name(3, extension), encoded(format, [9, 12], 3));
         let folder = folder(&files);
         let source = io::open(folder.path()).expect("opens");
-        assert_says(source.decode(3), &[&bonn_name(3, extension), "9 x 12", "12 x 9", "crop"]);
-        source.decode(2).expect("the others stay readable");
+        assert_says(codes(source.as_ref(), 3), &[&bonn_name(3, extension), "9 x 12", "12 x 9", "crop"]);
+        codes(source.as_ref(), 2).expect("the others stay readable");
     }
 }
 
@@ -146,10 +146,10 @@ fn every_truncation_of_a_jpeg_is_an_error() {
     for length in 0..whole.len() {
         write_tree(folder.path(), &[(bonn_name(0, "jpg"), whole[..length].to_vec())]);
         let expected = if length < 3 { "is no image" } else { "is truncated" };
-        assert_says(source.decode(0), &[expected, &bonn_name(0, "jpg")]);
+        assert_says(codes(source.as_ref(), 0), &[expected, &bonn_name(0, "jpg")]);
     }
     write_tree(folder.path(), &[(bonn_name(0, "jpg"), [whole, vec![0; 100]].concat())]);
-    source.decode(0).expect("what follows the end does not count");
+    codes(source.as_ref(), 0).expect("what follows the end does not count");
 }
 
 fn truncated_rasters_are_errors_or_complete() {
@@ -157,10 +157,10 @@ fn truncated_rasters_are_errors_or_complete() {
         let whole = encoded(format, [12, 9], 1);
         let folder = folder(&[(bonn_name(0, extension), whole.clone())]);
         let source = io::open(folder.path()).expect("opens");
-        let texels = source.decode(0).expect("decodes");
+        let texels = codes(source.as_ref(), 0).expect("decodes");
         for length in 0..whole.len() {
             write_tree(folder.path(), &[(bonn_name(0, extension), whole[..length].to_vec())]);
-            match source.decode(0) {
+            match codes(source.as_ref(), 0) {
                 Ok(found) => assert_eq!(found, texels, "{extension} cut to {length} of {} bytes", whole.len()),
                 Err(error) => assert!(error.to_string().contains(&bonn_name(0, extension)), "{error}"),
             }
@@ -176,7 +176,7 @@ fn damage_within_a_jpeg_is_an_error() {
     let start = whole.windows(2).position(|pair| pair == [0xff, 0xda]).expect("has a scan") + 14;
     let damaged = [&whole[..start + 20], &[0xff, 0x00].repeat(8), &whole[start + 20..]].concat();
     write_tree(folder.path(), &[(bonn_name(0, "jpg"), damaged)]);
-    assert_says(source.decode(0), &["is damaged", &bonn_name(0, "jpg")]);
+    assert_says(codes(source.as_ref(), 0), &["is damaged", &bonn_name(0, "jpg")]);
 }
 
 fn a_file_that_is_no_image_is_named() {
@@ -184,7 +184,7 @@ fn a_file_that_is_no_image_is_named() {
     files[2].1 = b"<html>not found</html>".to_vec();
     let tree = folder(&files);
     let source = io::open(tree.path()).expect("opens");
-    assert_says(source.decode(2), &[&bonn_name(2, "jpg"), "is no image", "\"<html>no\""]);
+    assert_says(codes(source.as_ref(), 2), &[&bonn_name(2, "jpg"), "is no image", "\"<html>no\""]);
     files[0].1 = Vec::new();
     assert_says(io::open(folder(&files).path()), &[&bonn_name(0, "jpg"), "it is empty"]);
 }
@@ -235,7 +235,7 @@ fn an_absurd_size_is_refused_before_it_is_allocated() {
     let mut files = small_tree();
     files[5].1 = jpeg;
     let tree = folder(&files);
-    assert_says(io::open(tree.path()).expect("opens").decode(5), &["61680 x 61680", "12 x 9"]);
+    assert_says(codes(io::open(tree.path()).expect("opens").as_ref(), 5), &["61680 x 61680", "12 x 9"]);
     // A BMP's header holds columns and rows from byte 18.
     let mut bmp = encoded(ImageFormat::Bmp, [12, 9], 0);
     bmp[18..26].copy_from_slice(&[0, 0, 1, 0, 0, 0, 1, 0]);
@@ -254,5 +254,5 @@ fn a_lost_file_is_named_at_decoding() {
     let folder = folder(&small_tree());
     let source = io::open(folder.path()).expect("opens");
     std::fs::remove_file(folder.path().join(bonn_name(4, "jpg"))).expect("was there");
-    assert_says(source.decode(4), &["cannot read", &bonn_name(4, "jpg")]);
+    assert_says(codes(source.as_ref(), 4), &["cannot read", &bonn_name(4, "jpg")]);
 }

@@ -2,16 +2,17 @@
 
 use std::path::Path;
 
+use half::f16;
 use overpaint::{
-    data::{Direction, Map},
+    data::{Block, Direction, Map},
     gpu::Gpu,
     io,
     model::{Boundary, FitSettings},
     reference,
-    stage::{FrankotChellappa, PhotometricStereo, SrgbDecode},
+    stage::{FrankotChellappa, PhotometricStereo},
 };
 
-use crate::support::{hold, npy};
+use crate::support::{hold, npy, tile};
 
 crate::suite! { gpu_data: normals_and_height_are_those_of_the_truth; }
 
@@ -28,12 +29,12 @@ fn normals_and_height_are_those_of_the_truth(gpu: &Gpu, data: &Path) {
         let truth = Map::new(width, height, npy::read(&data.join(truth))).expect("has the same shape").map(|z| z * width as f64);
         let samples = btf.zenith_samples();
         let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
-        let codes: Vec<u32> =
-            samples.iter().flat_map(|&sample| source.decode(sample).expect("decodes")).map(u32::from_le_bytes).collect();
-
+        let mut radiance = vec![f16::ZERO; samples.len() * 3 * btf.texels()];
+        source.read(&samples, Block::whole(btf.size()), &mut radiance, &|_| {}).expect("reads");
         let mut recorder = gpu.recorder();
-        let codes = gpu.upload("codes", &codes).expect("fits");
-        let tile = SrgbDecode::new(gpu).expect("builds").record(&mut recorder, &codes, samples.len(), btf.texels()).expect("records");
+        let tile = tile::upload(gpu, btf.texels(), samples.len(), |channel, sample, texel| {
+            radiance[(sample * 3 + channel) * btf.texels() + texel].to_f64()
+        });
         let normals = PhotometricStereo::new(gpu).expect("builds").record(&mut recorder, &tile, &lights).expect("records");
         let heights = FrankotChellappa::new(gpu)
             .expect("builds")

@@ -1,7 +1,8 @@
 //! The main job does not depend on how it is cut into tiles and bands.
 
+use half::f16;
 use overpaint::{
-    data::{Btf, Direction, Pair, Transfer},
+    data::{Block, Btf, Direction, Encoding, Pair, Transfer},
     gpu::Gpu,
     io::{IoError, Source},
     model::FitSettings,
@@ -24,7 +25,7 @@ impl Speckle {
         let views: Vec<_> = ring(0.0, 1).chain(ring(40.0, 4)).collect();
         let lights: Vec<_> = ring(15.0, 3).chain(ring(55.0, 6)).collect();
         let pairs = (0..views.len()).flat_map(|view| (0..lights.len()).map(move |light| Pair { view, light })).collect();
-        Self(Btf::new("speckle".to_owned(), SIZE, views, lights, pairs, Transfer::Srgb).expect("is a BTF"))
+        Self(Btf::new("speckle".to_owned(), SIZE, views, lights, pairs, Encoding::photograph(Transfer::Srgb)).expect("is a BTF"))
     }
 }
 
@@ -33,9 +34,22 @@ impl Source for Speckle {
         &self.0
     }
 
-    fn decode(&self, sample: usize) -> Result<Vec<[u8; 4]>, IoError> {
-        let mut random = Random::new(sample as u64);
-        Ok((0..self.0.texels()).map(|_| [0; 4].map(|_: u8| 60 + random.below(150) as u8)).collect())
+    fn read(&self, samples: &[usize], block: Block, radiance: &mut [f16], done: &(dyn Fn(usize) + Sync)) -> Result<(), IoError> {
+        for (values, &sample) in radiance.chunks_exact_mut(3 * block.texels()).zip(samples) {
+            let mut random = Random::new(sample as u64);
+            let picture: Vec<f16> = (0..3 * self.0.texels()).map(|_| f16::from_f64(0.05 + 0.7 * random.unit())).collect();
+            for (channel, values) in values.chunks_exact_mut(block.texels()).enumerate() {
+                for (value, texel) in values.iter_mut().zip(block.rows().flat_map(|row| block.columns().map(move |column| row * SIZE[0] + column))) {
+                    *value = picture[channel * self.0.texels() + texel];
+                }
+            }
+            done(1);
+        }
+        Ok(())
+    }
+
+    fn fingerprint(&self) -> String {
+        "speckle".to_owned()
     }
 }
 
@@ -44,7 +58,7 @@ fn any_tiles_give_the_same_bits(gpu: &Gpu) {
     let texels = source.btf().texels();
     let samples = source.btf().pairs().len();
     // Bytes of one texel: its halves on the adapter, 45 samples in six octets of three channels; its codes on the host.
-    let (halves, codes) = (3 * 6 * 16, samples * 4);
+    let (halves, codes) = (3 * 6 * 16, samples * 6);
     let fitted = |memory| {
         let progress = Progress::new(gpu.adapter());
         let material = fit_within(gpu, &source, &FitSettings::default(), memory, &progress).expect("fits");
