@@ -77,8 +77,6 @@ sources! {
     SPECULAR_RESIDUAL = "kernels" "specular_residual";
     /// Specular reflectance per channel.
     SPECULAR_SCALE = "kernels" "specular_scale";
-    /// Tile of sRGB images to linear halves.
-    SRGB_DECODE = "kernels" "srgb_decode";
     /// The maps and directions that shading reads.
     SURFACE = "kernels/common" "surface";
     /// Index of a thread in a folded grid.

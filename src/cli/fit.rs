@@ -4,9 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CliError, arguments, output, say, session::SessionArguments};
+use super::{
+    CliError, arguments,
+    memory::{AdapterMemoryArguments, MemoryArguments},
+    output, say,
+    session::SessionArguments,
+};
 use crate::{
-    io,
+    io::{self, Unfinished},
     model::{Boundary, FitSettings, SpecularScale},
     pipeline,
 };
@@ -52,6 +57,10 @@ pub struct Fit {
     /// Least lobe that ρ_s is taken from: with mean-ratio of a sample, with least-squares the root of a texel's sum of squares
     #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, allow_negative_numbers = true, value_parser = arguments::positive)]
     min_lobe: f64,
+    #[command(flatten)]
+    memory: MemoryArguments,
+    #[command(flatten)]
+    adapter_memory: AdapterMemoryArguments,
 }
 
 impl Fit {
@@ -71,9 +80,15 @@ impl Fit {
         output::check_material(&self.output)?;
         let source = io::open(&self.source)?;
         let session = session.open()?;
-        let material = pipeline::fit(&session.gpu, source.as_ref(), &settings, &session.progress)?;
-        io::material::save(&self.output, &material)?;
+        let unfinished = Unfinished::begin(&self.output, &pipeline::fit_job(&session.gpu, source.as_ref(), &settings))?;
+        if !unfinished.is_complete() {
+            let memory = self.memory.memory(Some(self.adapter_memory));
+            let material = pipeline::fit_within(&session.gpu, source.as_ref(), &settings, memory, Some(&unfinished), &session.progress)?;
+            io::material::save(&self.output, &material)?;
+        }
+        let resumed = if unfinished.is_resumed() { " (an earlier run had begun it)" } else { "" };
+        unfinished.commit()?;
         let times = session.finish()?;
-        say(&format!("{times}\nwrote {}", self.output.display()))
+        say(&format!("{times}\nwrote {}{resumed}", self.output.display()))
     }
 }

@@ -9,7 +9,9 @@ mod bar;
 mod demo;
 mod error;
 mod fit;
+mod import;
 mod info;
+mod memory;
 mod output;
 mod reconstruct;
 mod render;
@@ -49,6 +51,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 enum Command {
     Demo(demo::Demo),
     Fit(fit::Fit),
+    Import(import::Import),
     Info(info::Info),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
@@ -64,6 +67,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
     match command {
         Command::Demo(demo) => demo.run(&session),
         Command::Fit(fit) => fit.run(&session),
+        Command::Import(import) => import.run(&session),
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
         Command::Info(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()

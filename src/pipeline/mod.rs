@@ -5,6 +5,7 @@ mod error;
 mod fit;
 mod geometry;
 mod import;
+mod memory;
 mod progress;
 mod reflectance;
 mod report;
@@ -13,8 +14,8 @@ mod tiles;
 
 pub use demo::{REPORT, demo};
 pub use error::PipelineError;
-pub use fit::{fit, fit_within};
+pub use fit::{fit, fit_job, fit_within};
 pub use import::{Imported, import};
+pub use memory::Memory;
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
 pub use studio::{Painting, Studio};
-pub use tiles::Memory;

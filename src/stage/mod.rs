@@ -16,7 +16,6 @@ mod reconstruct;
 mod scalar;
 mod specular_residual;
 mod specular_scale;
-mod srgb_decode;
 mod surface;
 mod tile;
 
@@ -35,7 +34,6 @@ pub use photometric_stereo::PhotometricStereo;
 pub use reconstruct::Reconstruct;
 pub use specular_residual::SpecularResidual;
 pub use specular_scale::SpecularScale;
-pub use srgb_decode::SrgbDecode;
 pub use surface::{Scene, Surface};
 pub use tile::Tile;
 

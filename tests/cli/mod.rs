@@ -2,8 +2,10 @@
 
 mod errors;
 mod help;
+mod killed;
 mod main_job;
 mod progress;
+mod python;
 mod usage;
 
 use std::{
@@ -12,7 +14,10 @@ use std::{
 };
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [errors::tests(), help::tests(), main_job::tests(), progress::tests(), usage::tests()].into_iter().flatten().collect()
+    [errors::tests(), help::tests(), killed::tests(), main_job::tests(), progress::tests(), python::tests(), usage::tests()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// What a command printed and how it ended.

@@ -1,6 +1,7 @@
 //! Readers and writers.
 
 mod archive;
+mod dataset;
 mod material;
 mod measured;
 mod picture;
@@ -15,7 +16,10 @@ use overpaint::{
 };
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [archive::tests(), material::tests(), measured::tests(), picture::tests(), tree::tests()].into_iter().flatten().collect()
+    [archive::tests(), dataset::tests(), material::tests(), measured::tests(), picture::tests(), tree::tests()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// An encoded image of smooth colours that depend on `seed`.

@@ -20,6 +20,5 @@ crate::suites! {
     reconstruct,
     specular_residual,
     specular_scale,
-    srgb_decode,
     tiles,
 }
