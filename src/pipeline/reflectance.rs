@@ -87,6 +87,7 @@ impl Found {
             objective: objectives.map(|[_, end]| *end),
             iterations: outcomes.map(|[_, iterations]| *iterations),
             status: outcomes.map(|[status, _]| *status),
+            masked: Map::from_fn(width, height, |_, _| 0),
         };
         Ok((svbrdf, fit))
     }

@@ -167,7 +167,7 @@ fn every_descent_ends(gpu: &Gpu) {
 
 /// Samples of one direction have no lobe but a mean: the objective is their variance.
 fn equal_samples_are_fitted_exactly(gpu: &Gpu) {
-    for count in [1, 2, 3, 8, 16] {
+    for count in [8, 9, 16, 17] {
         let pair = (Direction::from_degrees(30.0, 20.0), Direction::from_degrees(35.0, 190.0));
         let samples = Samples::new(vec![pair; count]);
         let mut residual = vec![[f16::ZERO; OCTET]; samples.octets()];
