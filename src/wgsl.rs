@@ -35,6 +35,8 @@ sources! {
     LAFORTUNE = "kernels/common" "lafortune";
     /// Texels whose Lafortune fit still runs.
     LAFORTUNE_ACTIVE = "kernels" "lafortune_active";
+    /// Valid samples and energy of each texel's Lafortune fit.
+    LAFORTUNE_ENERGY = "kernels" "lafortune_energy";
     /// One step of the Lafortune fit.
     LAFORTUNE_FIT = "kernels" "lafortune_fit";
     /// End of the Lafortune fit.

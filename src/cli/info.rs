@@ -120,6 +120,7 @@ fn fit_end(status: FitStatus) -> &'static str {
         FitStatus::Converged => "converged",
         FitStatus::NoSpecular => "no specular part",
         FitStatus::Stalled => "settled to rounding",
+        FitStatus::TooFewSamples => "too few valid samples",
     }
 }
 

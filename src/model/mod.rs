@@ -17,7 +17,7 @@ pub use boundary::Boundary;
 pub use coat::Coat;
 pub use fourier::Fourier;
 pub use kubelka_munk::Film;
-pub use lafortune::lafortune;
+pub use lafortune::{MIN_LOBE_SAMPLES, lafortune};
 pub use paint::{Layer, Paint, PaintError};
 pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;

@@ -32,7 +32,8 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<(Svbrdf, 
     let specular_scale = stage::SpecularScale::new(gpu)?;
 
     let texels = job.for_each_tile("reflectance", &lit, |gathered| {
-        let (radiance, texels) = (gathered.tile, gathered.masked.len());
+        let (radiance, masked) = (gathered.tile, gathered.masked.read(gpu)?);
+        let texels = masked.len();
         let size = [texels, samples.len()];
         let reflectance = run(gpu, progress, "brdf_values", size, |recorder| brdf_values.record(recorder, &radiance, &samples))?;
         drop(radiance);
@@ -53,6 +54,7 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<(Svbrdf, 
             lobe: lobes[texel],
             objectives: objectives[texel],
             outcome: outcomes[texel],
+            masked: masked[texel],
         };
         Ok((0..texels).map(texel).collect())
     })?;
@@ -69,6 +71,7 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<(Svbrdf, 
         objective: texels.map(|texel| texel.objectives[1]),
         iterations: texels.map(|texel| texel.outcome[1]),
         status: texels.map(|texel| texel.outcome[0]),
+        masked: texels.map(|texel| texel.masked),
     };
     Ok((svbrdf, fit))
 }
@@ -82,4 +85,5 @@ struct Texel {
     lobe: [f32; 4],
     objectives: [f32; 2],
     outcome: [u32; 2],
+    masked: u32,
 }

@@ -8,6 +8,7 @@ crate::suites! {
     gather,
     kubelka_munk,
     lafortune_fit,
+    masked,
     microfacet,
     normals,
     paint_relief,
