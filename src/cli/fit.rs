@@ -7,7 +7,7 @@ use clap::Args;
 use super::{CliError, arguments, output, say, session::SessionArguments};
 use crate::{
     io,
-    model::{Boundary, FitSettings, SpecularScale},
+    model::{Boundary, FitSettings, SpecularScale, StereoMethod},
     pipeline,
 };
 
@@ -28,6 +28,9 @@ pub struct Fit {
     /// What lies beyond the sample's edge: periodic if it tiles, mirror if it is a cut-out
     #[arg(long, default_value = "periodic", value_parser = arguments::boundary())]
     boundary: Boundary,
+    /// How normals follow from the images: robust gives little weight to shadows and highlights
+    #[arg(long, value_name = "METHOD", default_value = "robust", value_parser = arguments::stereo_method())]
+    stereo: StereoMethod,
     /// With mirror: keep the height's mean tilt
     #[arg(long)]
     keep_tilt: bool,
@@ -58,6 +61,7 @@ impl Fit {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         let settings = FitSettings {
             boundary: self.boundary,
+            stereo: self.stereo,
             max_slope: self.max_slope,
             min_cos_light: self.min_cos_light,
             diffuse_quantile: self.diffuse_quantile,

@@ -39,7 +39,7 @@ pub(super) fn recover(
             let codes = gpu.upload("codes", codes)?;
             decode.record(recorder, &codes, samples.len(), texels.len())
         })?;
-        let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights))?;
+        let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights, settings.stereo))?;
         measured.extend(normals.read(gpu)?);
         Ok(())
     })?;

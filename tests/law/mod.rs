@@ -13,6 +13,7 @@ crate::suites! {
     path_traced,
     pattern,
     percentile,
+    photographed_sphere,
     photometric_stereo,
     pigments,
     plane,
