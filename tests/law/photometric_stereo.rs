@@ -144,7 +144,7 @@ fn what_the_samples_do_not_determine_faces_out(gpu: &Gpu) {
     // An arc through the zenith, and two lights off it.
     let arc = (0..7).map(|index| Direction::from_degrees(15.0 * f64::from(index), 60.0));
     let lights: Vec<Direction> = arc.chain(ring(30.0, 2)).collect();
-    let lit: [&[usize]; 6] = [&[], &[7], &[0, 8], &[7, 8], &[0, 1, 2, 3, 4, 5, 6], &[3, 5, 6]];
+    let lit: [&[usize]; 7] = [&[], &[7], &[0, 8], &[7, 8], &[6, 7], &[0, 1, 2, 3, 4, 5, 6], &[3, 5, 6]];
     for method in METHODS {
         let unmasked = |sample: usize, texel: usize| lit[texel].contains(&sample);
         let masked = measure(gpu, &lights, lit.len(), method, |sample, texel| if unmasked(sample, texel) { [f16::ONE; 3] } else { MASKED });
