@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::{
     data::Direction,
-    model::{Boundary, SpecularScale},
+    model::{Boundary, SpecularScale, StereoMethod},
 };
 
 /// Largest side of a picture: the largest texture that WebGPU guarantees.
@@ -93,5 +93,13 @@ pub fn specular_scale() -> impl TypedValueParser<Value = SpecularScale> {
     PossibleValuesParser::new(["least-squares", "mean-ratio"]).map(|name| match name.as_str() {
         "mean-ratio" => SpecularScale::MeanRatio,
         _ => SpecularScale::LeastSquares,
+    })
+}
+
+/// [`StereoMethod`] by its name.
+pub fn stereo_method() -> impl TypedValueParser<Value = StereoMethod> {
+    PossibleValuesParser::new(["robust", "least-squares"]).map(|name| match name.as_str() {
+        "least-squares" => StereoMethod::LeastSquares,
+        _ => StereoMethod::Robust,
     })
 }

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     io::{self, Unfinished},
-    model::{Boundary, FitSettings, SpecularScale},
+    model::{Boundary, FitSettings, SpecularScale, StereoMethod},
     pipeline,
 };
 
@@ -33,6 +33,9 @@ pub struct Fit {
     /// What lies beyond the sample's edge: periodic if it tiles, mirror if it is a cut-out
     #[arg(long, default_value = "periodic", value_parser = arguments::boundary())]
     boundary: Boundary,
+    /// How normals follow from the images: robust gives little weight to shadows and highlights
+    #[arg(long, value_name = "METHOD", default_value = "robust", value_parser = arguments::stereo_method())]
+    stereo: StereoMethod,
     /// With mirror: keep the height's mean tilt
     #[arg(long)]
     keep_tilt: bool,
@@ -67,6 +70,7 @@ impl Fit {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         let settings = FitSettings {
             boundary: self.boundary,
+            stereo: self.stereo,
             max_slope: self.max_slope,
             min_cos_light: self.min_cos_light,
             diffuse_quantile: self.diffuse_quantile,

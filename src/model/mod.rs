@@ -12,6 +12,7 @@ pub mod pattern;
 pub mod pigments;
 mod relief;
 mod settings;
+pub mod stereo;
 
 pub use boundary::Boundary;
 pub use coat::Coat;
@@ -22,4 +23,4 @@ pub use paint::{Layer, Paint, PaintError};
 pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;
 pub use relief::Relief;
-pub use settings::{FitSettings, SettingsError, SpecularScale};
+pub use settings::{FitSettings, SettingsError, SpecularScale, StereoMethod};

@@ -31,7 +31,7 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<Geometry,
     let measured: Vec<[f32; 4]> = job.for_each_tile("normals", &samples, |gathered| {
         let tile = gathered.tile;
         let size = [tile.texels, tile.samples];
-        let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights))?;
+        let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights, settings.stereo))?;
         Ok(normals.read(gpu)?)
     })?;
 

@@ -37,6 +37,7 @@ const OUT_OF_RANGE: &[(&[&str], &str)] = &[
     (&["fit", "s", "-o", "m", "--iterations", "0"], "0 is not in 1..=10000"),
     (&["fit", "s", "-o", "m", "--iterations", "-1"], "-1 is not in 1..=10000"),
     (&["fit", "s", "-o", "m", "--boundary", "torus"], "invalid value 'torus'"),
+    (&["fit", "s", "-o", "m", "--stereo", "median"], "invalid value 'median'"),
     (&["fit", "s", "-o", "m", "--specular-scale", "guess"], "invalid value 'guess'"),
     (&["fit", "s", "-o", "m", "--diffuse-quantile", "1.5"], "expected a number from 0 to 1"),
     (&["fit", "s", "-o", "m", "--max-slope", "inf"], "expected a number above 0"),

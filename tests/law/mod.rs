@@ -15,6 +15,7 @@ crate::suites! {
     path_traced,
     pattern,
     percentile,
+    photographed_sphere,
     photometric_stereo,
     pigments,
     plane,
