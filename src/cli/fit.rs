@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CliError, arguments, output, say, session::SessionArguments};
+use super::{CliError, arguments, output, reading::ReadingArguments, say, session::SessionArguments};
 use crate::{
     io,
     model::{Boundary, FitSettings, SpecularScale},
@@ -17,10 +17,12 @@ use crate::{
 Examples:
   overpaint fit cloth.zip -o cloth.zarr
   overpaint fit photographs/ -o wall.zarr --boundary mirror --timings wall.json
+  overpaint fit cloth.zip -o corner.zarr --region 0,0,64x64 --max-theta 60
 
-SOURCE is a tree of images named by their directions (such as `tl030 pl090 tv000 pv000.jpg`), as a folder or in a .zip.")]
+SOURCE is a folder or a .zip of images: named by their directions (such as `tl030 pl090 tv000 pv000.jpg`), or of one view with a file of
+light directions (lights.txt, light_directions.txt, .lp).")]
 pub struct Fit {
-    /// The BTF: a folder or a .zip of images
+    /// The BTF: a folder or a .zip of images, or an .lp file
     source: PathBuf,
     /// The material to write, a Zarr group
     #[arg(short, long, value_name = "MATERIAL")]
@@ -52,6 +54,8 @@ pub struct Fit {
     /// Least lobe that ρ_s is taken from: with mean-ratio of a sample, with least-squares the root of a texel's sum of squares
     #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, allow_negative_numbers = true, value_parser = arguments::positive)]
     min_lobe: f64,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 impl Fit {
@@ -69,7 +73,7 @@ impl Fit {
             ..FitSettings::default()
         };
         output::check_material(&self.output)?;
-        let source = io::open(&self.source)?;
+        let source = io::open_with(&self.source, &self.reading.options())?;
         let session = session.open()?;
         let material = pipeline::fit(&session.gpu, source.as_ref(), &settings, &session.progress)?;
         io::material::save(&self.output, &material)?;

@@ -11,6 +11,7 @@ mod error;
 mod fit;
 mod info;
 mod output;
+mod reading;
 mod reconstruct;
 mod render;
 mod session;

@@ -20,6 +20,7 @@ crate::suites! {
     reconstruct,
     specular_residual,
     specular_scale,
+    spectrum,
     srgb_decode,
     tiles,
 }
