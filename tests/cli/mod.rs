@@ -4,6 +4,7 @@ mod errors;
 mod help;
 mod main_job;
 mod progress;
+mod reading;
 mod usage;
 
 use std::{
@@ -12,7 +13,7 @@ use std::{
 };
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [errors::tests(), help::tests(), main_job::tests(), progress::tests(), usage::tests()].into_iter().flatten().collect()
+    [errors::tests(), help::tests(), main_job::tests(), progress::tests(), reading::tests(), usage::tests()].into_iter().flatten().collect()
 }
 
 /// What a command printed and how it ended.

@@ -157,8 +157,11 @@ fn names_with_directions_win() {
     assert_eq!(source.btf().encoding().transfer, Transfer::Srgb);
 }
 
+/// A parser without its result.
+type Parser = fn(&str) -> Result<(), LightFault>;
+
 fn wrong_light_files_name_the_line() {
-    let cases: &[(fn(&str) -> Result<(), LightFault>, &[(&str, &str)])] = &[
+    let cases: &[(Parser, &[(&str, &str)])] = &[
         (
             |text| parse_uw(text).map(drop),
             &[

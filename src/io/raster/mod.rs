@@ -80,6 +80,7 @@ pub(super) fn decode(file: &str, bytes: &[u8], expected: [usize; 2]) -> Result<P
 }
 
 /// A decoder that has read an image's header.
+#[expect(clippy::large_enum_variant, reason = "there is one at a time, for as long as an image is decoded")]
 enum Decoder<'a> {
     Jpeg(jpeg::Jpeg<'a>, [usize; 2]),
     /// PNG, BMP and TIFF of 8 or 16 bits.

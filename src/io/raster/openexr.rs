@@ -162,7 +162,7 @@ impl Texels {
         let channels = match &self.channels {
             Channels::Copied(_) => 3,
             Channels::Mixed(weights) => {
-                self.values.iter_mut().for_each(|value| *value = value.max(0.0).min(f32::MAX));
+                self.values.iter_mut().for_each(|value| *value = value.clamp(0.0, f32::MAX));
                 for (texel, &value) in &self.unmixed {
                     self.values[3 * texel..3 * texel + 3].fill(value);
                 }
