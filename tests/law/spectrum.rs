@@ -5,7 +5,7 @@ use overpaint::model::{
 
 use crate::support::{Worst, hold};
 
-crate::suite! { plain: constant_reflectance_is_gray, white_is_d65, fine_and_coarse_spectra_agree, pure_colours_are_where_they_belong; }
+crate::suite! { plain: constant_reflectance_is_gray, white_is_d65, a_line_is_exact_however_sampled, fine_and_coarse_spectra_agree, pure_colours_are_where_they_belong; }
 
 fn rgb(wavelengths: &[f64], reflectance: impl Fn(f64) -> f64) -> [f64; 3] {
     rgb_weights(wavelengths).iter().zip(wavelengths).fold([0.0; 3], |sum, (weight, &wavelength)| {
@@ -34,6 +34,22 @@ fn white_is_d65() {
     // The balance at the end has little to do.
     let white = linear_from_xyz(xyz.map(|value| value / xyz[1]));
     hold("spectrum: balance", white.map(|value| (value - 1.0).abs()).into_iter().worst(), 0.01);
+}
+
+/// A reflectance that is linear in the wavelength has the colour of its integral over every nm, however few wavelengths tell it.
+fn a_line_is_exact_however_sampled() {
+    let line = |nm: f64| 0.1 + (nm - 360.0) / 600.0;
+    let product = |factor: &dyn Fn(f64) -> f64| {
+        let matched = |nm: f64| linear_from_xyz(color_matching(nm).map(|matching| matching * d65(nm) * factor(nm)));
+        (360..=780).map(f64::from).fold([0.0; 3], |sum, nm| [0, 1, 2].map(|index| sum[index] + matched(nm)[index]))
+    };
+    let (color, white) = (product(&line), product(&|_| 1.0));
+    let expected = [0, 1, 2].map(|channel| color[channel] / white[channel]);
+    for wavelengths in [vec![360.0, 780.0], vec![350.0, 444.4, 600.5, 790.0], steps(360.0, 780.0, 1.0), steps(355.0, 790.0, 7.25)] {
+        let found = rgb(&wavelengths, line);
+        // Sums of some 400 terms in f64.
+        hold("spectrum: a line", found.iter().zip(expected).map(|(found, expected)| (found - expected).abs()).worst(), 1e-12);
+    }
 }
 
 /// A smooth reflectance sampled every 10 nm has the colour that it has sampled every nm.
