@@ -28,6 +28,7 @@ crate::suite! { plain:
     unknown_channels_are_named,
     every_truncation_is_an_error,
     damage_is_never_a_panic,
+    a_panic_of_the_decoder_is_an_error,
     an_absurd_size_is_refused_before_it_is_allocated;
 }
 
@@ -223,6 +224,19 @@ fn damage_is_never_a_panic() {
                 assert!(error.to_string().contains(".exr"), "{error}");
             }
         }
+    }
+}
+
+/// Where overflow is checked, the library panics here; else it makes something of it.
+fn a_panic_of_the_decoder_is_an_error() {
+    let mut bytes =
+        encoded_as(layout(Compression::B44, Blocks::ScanLines), SIZE, vec![("R", halves(0)), ("G", halves(1)), ("B", halves(2))]);
+    let end = bytes.len();
+    bytes[end - 80..].fill(0);
+    let found = texels(single("exr", &bytes).path());
+    assert!(found.is_err() || !cfg!(debug_assertions), "{found:?}");
+    if found.is_err() {
+        assert_says(found, &[".exr is damaged", "its decoder gave up"]);
     }
 }
 

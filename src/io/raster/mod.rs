@@ -7,7 +7,10 @@ mod jpeg;
 mod openexr;
 mod radiance_hdr;
 
-use std::io::Cursor;
+use std::{
+    io::Cursor,
+    panic::{AssertUnwindSafe, catch_unwind},
+};
 
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 
@@ -46,6 +49,22 @@ impl Picture {
 
 /// Reads the header of an encoded image.
 pub(super) fn header(file: &str, bytes: &[u8]) -> Result<Header, IoError> {
+    guarded(file, || read_header(file, bytes))
+}
+
+/// The texels of an encoded image of `expected` columns and rows. Nothing is allocated for another size.
+pub(super) fn decode(file: &str, bytes: &[u8], expected: [usize; 2]) -> Result<Picture, IoError> {
+    guarded(file, || read_texels(file, bytes, expected))
+}
+
+/// Calls a decoder. Those of the libraries panic on some damaged files (OpenEXR's on damaged B44 and PXR24); that is damage like other.
+fn guarded<T>(file: &str, decode: impl FnOnce() -> Result<T, IoError>) -> Result<T, IoError> {
+    let damaged = |_| Err(IoError::Damaged { file: file.to_owned(), message: "its decoder gave up".to_owned() });
+    // Nothing that the decoder leaves half done is used afterwards.
+    catch_unwind(AssertUnwindSafe(decode)).unwrap_or_else(damaged)
+}
+
+fn read_header(file: &str, bytes: &[u8]) -> Result<Header, IoError> {
     let (integers, floats) = (Transfer::Srgb, Transfer::Linear);
     let (size, transfer) = match Decoder::open(file, bytes)? {
         Decoder::Jpeg(_, size) => (size, integers),
@@ -62,8 +81,7 @@ pub(super) fn header(file: &str, bytes: &[u8]) -> Result<Header, IoError> {
     }
 }
 
-/// The texels of an encoded image of `expected` columns and rows. Nothing is allocated for another size.
-pub(super) fn decode(file: &str, bytes: &[u8], expected: [usize; 2]) -> Result<Picture, IoError> {
+fn read_texels(file: &str, bytes: &[u8], expected: [usize; 2]) -> Result<Picture, IoError> {
     let fits = |found: [usize; 2]| if found == expected { Ok(()) } else { Err(IoError::Size { file: file.to_owned(), found, expected }) };
     match Decoder::open(file, bytes)? {
         Decoder::Jpeg(decoder, size) => fits(size).and_then(|()| jpeg::decode(file, bytes, decoder)).map(Picture::Bytes),
