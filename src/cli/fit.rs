@@ -7,7 +7,9 @@ use clap::Args;
 use super::{
     CliError, arguments,
     memory::{AdapterMemoryArguments, MemoryArguments},
-    output, say,
+    output,
+    reading::ReadingArguments,
+    say,
     session::SessionArguments,
 };
 use crate::{
@@ -22,10 +24,12 @@ use crate::{
 Examples:
   overpaint fit cloth.zip -o cloth.zarr
   overpaint fit photographs/ -o wall.zarr --boundary mirror --timings wall.json
+  overpaint fit cloth.zip -o corner.zarr --region 0,0,64x64 --max-theta 60
 
-SOURCE is a tree of images named by their directions (such as `tl030 pl090 tv000 pv000.jpg`), as a folder or in a .zip.")]
+SOURCE is a folder or a .zip of images: named by their directions (such as `tl030 pl090 tv000 pv000.jpg`), or of one view with a file of
+light directions (lights.txt, light_directions.txt, .lp).")]
 pub struct Fit {
-    /// The BTF: a folder or a .zip of images
+    /// The BTF: a folder or a .zip of images, or an .lp file
     source: PathBuf,
     /// The material to write, a Zarr group
     #[arg(short, long, value_name = "MATERIAL")]
@@ -64,6 +68,8 @@ pub struct Fit {
     memory: MemoryArguments,
     #[command(flatten)]
     adapter_memory: AdapterMemoryArguments,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 impl Fit {
@@ -82,7 +88,7 @@ impl Fit {
             ..FitSettings::default()
         };
         output::check_material(&self.output)?;
-        let source = io::open(&self.source)?;
+        let source = io::open_with(&self.source, &self.reading.options())?;
         let session = session.open()?;
         let unfinished = Unfinished::begin(&self.output, &pipeline::fit_job(&session.gpu, source.as_ref(), &settings))?;
         if !unfinished.is_complete() {

@@ -13,6 +13,7 @@ mod import;
 mod info;
 mod memory;
 mod output;
+mod reading;
 mod reconstruct;
 mod render;
 mod session;

@@ -8,9 +8,13 @@ pub mod conventions;
 pub mod dataset;
 mod error;
 mod group;
+mod images;
+pub mod lights;
 pub mod material;
+mod names;
 pub mod picture;
 mod raster;
+mod selection;
 mod source;
 mod staging;
 mod tree;
@@ -19,6 +23,8 @@ mod unfinished;
 use std::path::Path;
 
 pub use error::{ArrayFault, IoError};
+pub use names::directions_in_name;
+pub use selection::SelectionFault;
 pub use source::{ReadOptions, Source, open, open_with, open_zip_bytes};
 pub use staging::write;
 pub use unfinished::Unfinished;
@@ -28,13 +34,13 @@ pub use unfinished::Unfinished;
 pub enum Kind {
     /// A recovered material, which [`material::load`] reads.
     Material,
-    /// Images named by their directions, or a dataset, which [`open`] reads.
+    /// Images with directions in their names or in a light file, or a dataset, which [`open`] reads.
     Source,
     /// Neither; the error of [`open`] says why.
     Neither,
 }
 
-/// What `path` holds, judged by a material's attributes and by the names of images. No image is read.
+/// What `path` holds, judged by a material's attributes and by the names of files. No image is read.
 #[must_use]
 pub fn kind(path: &Path) -> Kind {
     if material::is_material(path) {

@@ -12,6 +12,7 @@ pub mod pattern;
 pub mod pigments;
 mod relief;
 mod settings;
+pub mod spectrum;
 pub mod stereo;
 
 pub use boundary::Boundary;

@@ -22,5 +22,6 @@ crate::suites! {
     reconstruct,
     specular_residual,
     specular_scale,
+    spectrum,
     tiles,
 }
