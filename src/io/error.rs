@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::BtfFileError;
 use crate::data::{BtfError, Direction, ShapeError};
 
 /// Everything that can go wrong with files. A `file` is a path, or an archive's path and the name inside it.
@@ -178,6 +179,9 @@ pub enum IoError {
     /// A description that is no BTF.
     #[error(transparent)]
     Btf(#[from] BtfError),
+    /// A `.btf` container.
+    #[error(transparent)]
+    BtfFile(#[from] BtfFileError),
 
     /// A folder that holds no material.
     #[error("{path} is no overpaint material: {found}; name a folder written by `overpaint fit`", path = path.display())]

@@ -1,10 +1,10 @@
 //! Measured sources: where a BTF's samples come from.
 
-use std::{fmt::Debug, path::Path};
+use std::{fmt::Debug, path::Path, sync::Arc};
 
 use half::f16;
 
-use super::{IoError, archive::Archive, tree::ImageTree};
+use super::{IoError, archive::Archive, btf_file::BtfFile, tree::ImageTree};
 use crate::data::{Block, Btf, Encoding, Map, RowOrder, Transfer};
 
 /// A measured BTF whose samples are read from where they lie, from any number of threads at once. Nothing is cached: each call
@@ -76,12 +76,12 @@ impl ReadOptions {
     }
 }
 
-/// Opens a folder, or a .zip archive without unpacking it, of images named by their directions. The name of the folder
-/// or archive names the BTF.
+/// Opens a folder, or a .zip archive without unpacking it, of images named by their directions; or a `.btf` container, which is known by its
+/// first bytes. The name of the folder, archive or container names the BTF.
 ///
 /// # Errors
-/// [`IoError`] if there is nothing, no image or no directions, if a pair is missing or there twice, or if the first
-/// image cannot be read.
+/// [`IoError`] if there is nothing, no image or no directions, if a pair is missing or there twice, if the first
+/// image cannot be read, or if a container's header is damaged or of an unknown kind.
 pub fn open(path: &Path) -> Result<Box<dyn Source>, IoError> {
     open_with(path, &ReadOptions::default())
 }
@@ -91,7 +91,18 @@ pub fn open(path: &Path) -> Result<Box<dyn Source>, IoError> {
 /// # Errors
 /// As [`open`].
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
+    if BtfFile::is_one(path) {
+        return Ok(Box::new(BtfFile::open(path, options)?));
+    }
     Ok(Box::new(ImageTree::open(Archive::open(path)?, options)?))
+}
+
+/// Opens a `.btf` container that is in memory. `name` names the BTF, and the file in errors.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_btf_bytes(name: &str, bytes: impl Into<Arc<[u8]>>, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
+    Ok(Box::new(BtfFile::from_bytes(name, bytes.into(), options)?))
 }
 
 /// Opens a .zip archive that is in memory, as the sample embedded in the program is. `name` names the BTF.
@@ -102,7 +113,10 @@ pub fn open_zip_bytes(name: &str, bytes: &'static [u8]) -> Result<Box<dyn Source
     Ok(Box::new(ImageTree::open(Archive::from_bytes(name, bytes)?, &ReadOptions::default())?))
 }
 
-/// Whether there is at least one image named by its directions.
+/// Whether it is a `.btf` container, or has at least one image named by its directions.
 pub(super) fn is_source(path: &Path) -> bool {
+    if BtfFile::has_signature(path) {
+        return true;
+    }
     Archive::open(path).is_ok_and(|archive| ImageTree::has_samples(&archive))
 }
