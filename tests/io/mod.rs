@@ -1,6 +1,8 @@
 //! Readers and writers.
 
 mod archive;
+mod btf_file;
+mod corpus;
 mod material;
 mod measured;
 mod picture;
@@ -15,7 +17,10 @@ use overpaint::{
 };
 
 pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [archive::tests(), material::tests(), measured::tests(), picture::tests(), tree::tests()].into_iter().flatten().collect()
+    [archive::tests(), btf_file::tests(), corpus::tests(), material::tests(), measured::tests(), picture::tests(), tree::tests()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// An encoded image of smooth colours that depend on `seed`.

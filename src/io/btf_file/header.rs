@@ -60,8 +60,9 @@ fn channels(header: &mut Header<'_>) -> Result<(), BtfFileError> {
     let mut names = Vec::new();
     for _ in 0..count.min(3) {
         let length = u64::from(header.u32("length of a channel's name")?);
-        let name = header.bytes("a channel's name", length.min(NAME))?;
-        header.pass("a channel's name", &[length - length.min(NAME)])?;
+        let start = header.pass("a channel's name", &[length])?;
+        let mut name = vec![0; header.count(start, "a channel's name", &[length.min(NAME)])?];
+        header.container().read(&mut name, start)?;
         names.push(String::from_utf8_lossy(&name).trim_matches(['\0', ' ']).to_owned());
     }
     if count == 3 && names.iter().zip(["R", "G", "B"]).all(|(name, expected)| name.eq_ignore_ascii_case(expected)) {
