@@ -9,11 +9,11 @@ use std::ops::Range;
 use half::{f16, slice::HalfFloatSliceExt};
 use rayon::prelude::*;
 
-use super::{BtfFileError, Plane, bytes::Container, color::Color, scalar::Table, share::Share};
+use super::{BtfFileError, Plane, Radiances, bytes::Container, color::Color, scalar::Table, share::Share};
 use crate::data::{Block, Btf};
 
-/// Texel factors that are held at once: 1 MiB of them stays in a core's cache while all samples pass.
-const HELD: usize = 1 << 18;
+/// Texel factors that are held at once: 256 KiB of them stay in a core's cache while all samples pass.
+const HELD: usize = 1 << 16;
 
 /// Bytes of a chunk's texel factors.
 const CHUNK: usize = 1 << 20;
@@ -112,6 +112,17 @@ pub(super) struct Set {
     pub(super) products: Vec<Product>,
 }
 
+impl Set {
+    /// All channels of one of its samples under loaded texel factors of each product, `[channel][texel]`.
+    fn evaluate(&self, factors: &[Vec<f32>], sample: usize, values: &mut [f32]) {
+        let texels = values.len() / 3;
+        for (channel, values) in values.chunks_exact_mut(texels).enumerate() {
+            let product = channel % self.products.len();
+            self.products[product].evaluate(&factors[product], sample, channel, values);
+        }
+    }
+}
+
 /// A factorised container.
 #[derive(Debug)]
 pub(super) struct Factored {
@@ -132,33 +143,26 @@ impl Factored {
     pub(super) fn read(
         &self, container: &Container, btf: &Btf, samples: &[usize], block: Block, radiance: &mut [f16], done: &(dyn Fn(usize) + Sync),
     ) -> Result<(), BtfFileError> {
-        let (texels, plane) = (block.texels(), Plane::of(btf));
+        let texels = block.texels();
         let of_set = btf.pairs().len() / self.sets.len();
-        let groups: Vec<&[usize]> = samples.chunk_by(|a, b| a / of_set == b / of_set).collect();
-        let strip = |set: &Set| {
-            let held: usize = set.products.iter().map(|product| product.planes() * product.components).sum();
-            (HELD / held).clamp(1, texels)
-        };
-        let set_of = |group: &[usize]| &self.sets[group[0] / of_set];
         let mut rest = radiance;
-        for group in groups {
+        for group in samples.chunk_by(|a, b| a / of_set == b / of_set) {
+            let set = &self.sets[group[0] / of_set];
             let (part, after) = rest.split_at_mut(3 * texels * group.len());
             rest = after;
-            let (set, strip) = (set_of(group), strip(set_of(group)));
+            let held: usize = set.products.iter().map(|product| product.planes() * product.components).sum();
+            let strip = (HELD / held).clamp(1, texels);
             let mut share = Share::new(group.len(), texels.div_ceil(strip), done);
             for start in (0..texels).step_by(strip) {
                 let range = start..(start + strip).min(texels);
-                let load = |product: &Product| product.load(container, plane, block, range.clone());
+                let load = |product: &Product| product.load(container, Plane::of(btf), block, range.clone());
                 let factors = set.products.par_iter().map(load).collect::<Result<Vec<_>, _>>()?;
                 part.par_chunks_exact_mut(3 * texels).zip(group).for_each_init(
                     || vec![0.0; 3 * range.len()],
                     |values, (radiance, &sample)| {
-                        for (channel, values) in values.chunks_exact_mut(range.len()).enumerate() {
-                            let product = channel % set.products.len();
-                            set.products[product].evaluate(&factors[product], sample % of_set, channel, values);
-                        }
+                        set.evaluate(&factors, sample % of_set, values);
                         self.color.to_rgb(values);
-                        let radiances = super::Radiances::of(btf, sample);
+                        let radiances = Radiances::of(btf, sample);
                         for (channel, values) in values.chunks_exact_mut(range.len()).enumerate() {
                             values.iter_mut().for_each(|value| *value = radiances.of_reconstructed(*value));
                             radiance[channel * texels..][range.clone()].convert_from_f32_slice(values);
