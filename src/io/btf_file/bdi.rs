@@ -163,11 +163,7 @@ impl Dump {
                         for (index, (&place, radiances)) in places.iter().zip(&radiances).enumerate() {
                             for channel in 0..3 {
                                 let bytes = [values[place + 2 * channel], values[place + 2 * channel + 1]];
-                                let value = if offset.is_some() {
-                                    f16::from_f32(radiances.of_measured(f16::from_le_bytes(bytes).to_f32()))
-                                } else {
-                                    f16::NAN
-                                };
+                                let value = if offset.is_some() { radiances.of_measured(f16::from_le_bytes(bytes)) } else { f16::NAN };
                                 radiance[(3 * index + channel) * texels + at] = value;
                             }
                         }

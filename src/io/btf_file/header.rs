@@ -1,5 +1,7 @@
 //! What the kinds of containers start with: META (who measured what, and in which units), BIDIR (the directions) and the size.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use super::{BtfFileError, bytes::Header};
 use crate::data::{Direction, Encoding, RowOrder, Transfer};
 
@@ -102,12 +104,15 @@ pub(super) fn directions(header: &mut Header<'_>) -> Result<Directions, BtfFileE
     Ok(Directions { views, lights, counts: [count, number] })
 }
 
-/// θ and φ in radians, φ brought to one turn.
+/// θ and φ in radians, φ from 0 to below one turn and 0 at the zenith.
 fn direction(header: &Header<'_>, offset: u64, what: &'static str, index: u64, bytes: &[u8]) -> Result<Direction, BtfFileError> {
     let angle = |at: usize| f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
     let (theta, phi) = (angle(0), angle(4));
-    if (0.0..std::f64::consts::FRAC_PI_2).contains(&f64::from(theta)) && phi.is_finite() {
-        return Ok(Direction { theta: f64::from(theta), phi: f64::from(phi).rem_euclid(std::f64::consts::TAU) });
+    if (0.0..FRAC_PI_2).contains(&f64::from(theta)) && phi.is_finite() {
+        let turned = f64::from(phi).rem_euclid(TAU);
+        // A negative angle next to 0 rounds up to the full turn.
+        let phi = if theta == 0.0 || turned >= TAU { 0.0 } else { turned };
+        return Ok(Direction { theta: f64::from(theta), phi });
     }
     Err(BtfFileError::Direction { file: header.container().file().to_owned(), offset, what, index, theta, phi })
 }

@@ -242,17 +242,27 @@ impl<'a> Radiances<'a> {
         Self { encoding, linear: encoding.transfer == Transfer::Linear, factor }
     }
 
-    /// Radiance of a value that was measured; what is finite stays finite.
-    fn of_measured(&self, stored: f32) -> f32 {
+    /// Radiance of a stored value, held at what a half can hold; what is finite stays finite.
+    fn held(&self, stored: f32) -> f32 {
         #[expect(clippy::cast_possible_truncation, reason = "24 bits are more than a half keeps")]
         let linear = if self.linear { stored } else { self.encoding.linear(f64::from(stored)) as f32 };
         let (radiance, most) = (linear * self.factor, f16::MAX.to_f32());
         if stored.is_finite() && radiance.abs() > most { most.copysign(radiance) } else { radiance }
     }
 
+    /// Radiance of a value that was measured. What is negative stays negative, however small, since that marks it as no radiance.
+    fn of_measured(&self, stored: f16) -> f16 {
+        let radiance = self.held(stored.to_f32());
+        match f16::from_f32(radiance) {
+            half if half != f16::ZERO => half,
+            _ if radiance < 0.0 => -f16::MIN_POSITIVE_SUBNORMAL,
+            _ => f16::ZERO,
+        }
+    }
+
     /// Radiance of a value that was reconstructed.
     fn of_reconstructed(&self, stored: f32) -> f32 {
-        let radiance = self.of_measured(stored);
-        if radiance.is_finite() && radiance < 0.0 { 0.0 } else { radiance }
+        let radiance = self.held(stored);
+        if radiance.is_finite() && radiance <= 0.0 { 0.0 } else { radiance }
     }
 }

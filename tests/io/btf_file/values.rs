@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use half::f16;
 use overpaint::{
-    data::{Block, RowOrder, Transfer},
+    data::{Block, Direction, RowOrder, Transfer},
     io::{self, Kind, ReadOptions},
 };
 
@@ -96,11 +96,13 @@ fn larger(scene: &Scene) -> Vec<File> {
 }
 
 fn directions_and_conventions_are_those_of_the_header() {
-    let scene = Scene::default();
+    // At the zenith φ means nothing.
+    let scene = Scene { views: vec![[0.0, 2.0], [0.5, 1.0]], ..Scene::default() };
     let source = open(&builder::dfmf(&scene, true, 0, [PLAIN; 3]).bytes, &ReadOptions::default());
     let btf = source.btf();
     assert_eq!((btf.name(), btf.size(), btf.views().len(), btf.lights().len()), ("small", [5, 4], 2, 3));
     assert!(btf.is_product());
+    assert_eq!(btf.views()[0], Direction { theta: 0.0, phi: 0.0 });
     let (view, light) = btf.directions(5);
     assert_eq!((view.theta, view.phi), (0.5, 1.0));
     assert!((light.phi - (std::f64::consts::TAU - 2.0)).abs() < 1e-9 && (light.theta - 1.2).abs() < 1e-7, "{light:?}");
@@ -157,10 +159,14 @@ fn what_no_half_holds_is_held_and_faults_come_as_they_are() {
     }
     let options = ReadOptions { scale: Some(2.0), ..ReadOptions::default() };
     let found = whole(open(&file.bytes, &options).as_ref());
-    let expected = [f16::MAX, f16::MIN, f16::INFINITY, f16::NEG_INFINITY, f16::NAN, f16::NEG_ZERO, f16::from_f32(-0.5), f16::from_f32(2.0)];
+    let expected = [f16::MAX, f16::MIN, f16::INFINITY, f16::NEG_INFINITY, f16::NAN, f16::ZERO, f16::from_f32(-0.5), f16::from_f32(2.0)];
     for (found, expected) in found.iter().zip(expected) {
         assert!(found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan(), "{found} is not {expected}");
     }
+    // A negative value stays one, however small.
+    let found = whole(open(&file.bytes, &ReadOptions { scale: Some(1e-9), ..ReadOptions::default() }).as_ref());
+    assert_eq!((found[5], found[6], found[7]), (f16::ZERO, -f16::MIN_POSITIVE_SUBNORMAL, f16::ZERO));
+    assert!(found[5].is_sign_positive());
     // Scalars that no f32 holds, and a reconstruction beyond a half.
     let mut file = builder::fmf(&scene, false, Some((1, true)), Storage { scalar: 8, transposed: false });
     let start = file.at("columns", 0) + 4 + 6 * 8;
