@@ -131,8 +131,8 @@ fn a_cosine_that_is_not_within_is_multiplied_in() {
 }
 
 fn what_the_user_knows_holds() {
-    let options =
-        ReadOptions { transfer: Some(Transfer::Gamma(2.0)), includes_cosine: Some(true), rows: Some(RowOrder::BottomUp), scale: Some(0.5) };
+    let half = ReadOptions { scale: Some(0.5), ..ReadOptions::default() };
+    let options = ReadOptions { transfer: Some(Transfer::Gamma(2.0)), includes_cosine: Some(true), rows: Some(RowOrder::BottomUp), ..half };
     for file in [builder::pvf(&Scene::default(), true, false, PLAIN), builder::bdi(&Scene::default(), 3, &MASK, true, false)] {
         let is_dump = file.bytes.starts_with(b"!BDI");
         let found = whole(open(&file.bytes, &options).as_ref());
