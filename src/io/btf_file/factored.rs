@@ -64,13 +64,14 @@ impl Product {
         let (texels, planes, stored) = (range.len(), self.planes(), self.texels.columns());
         let mut factors = vec![1.0; planes * self.components * texels];
         for run in plane.runs(block, range) {
-            let mut put = |row: usize, component: usize, value: f32| {
-                factors[(row % planes * self.components + component) * texels + run.at + row / planes] = value;
+            let mut put = |row: usize, first: usize, values: &[f32]| {
+                let at = (row % planes * self.components + first) * texels + run.at + row / planes;
+                factors[at..].iter_mut().step_by(texels).zip(values).for_each(|(factor, value)| *factor = *value);
             };
             let (first, rows) = (run.texel * planes, run.texels * planes);
-            self.texels.read(container, first, rows, |index, value| put(index / stored, index % stored, value))?;
+            self.texels.read(container, first, rows, |row, values| put(row, 0, values))?;
             if let Mean::OfTexels(means) = self.mean {
-                means.read(container, first, rows, |row, value| put(row, stored, value))?;
+                means.read(container, first, rows, |row, values| put(row, stored, values))?;
             }
         }
         Ok(factors)

@@ -1,13 +1,13 @@
 //! Scalars of 2, 4 or 8 bytes, and tables of them.
 
-use half::f16;
+use half::{f16, slice::HalfFloatSliceExt};
 
 use super::{
     BtfFileError,
     bytes::{Container, Header},
 };
 
-/// Bytes that are read and decoded at once.
+/// Bytes that are read and decoded at once, if a row has not more.
 const PIECE: usize = 1 << 20;
 
 /// How a scalar is stored, little-endian.
@@ -36,17 +36,16 @@ impl Scalar {
         }
     }
 
-    /// Calls `each(index, value)` for the stored values; doubles are rounded.
-    fn decode(self, bytes: &[u8], mut each: impl FnMut(usize, f32)) {
+    /// Appends the stored values to `values`; doubles are rounded.
+    fn decode(self, bytes: &[u8], values: &mut Vec<f32>) {
         match self {
             Self::Half => {
-                bytes.as_chunks().0.iter().enumerate().for_each(|(index, &value)| each(index, f16::from_le_bytes(value).to_f32()));
+                let halves: Vec<f16> = bytes.as_chunks().0.iter().map(|&value| f16::from_le_bytes(value)).collect();
+                values.extend(halves.to_f32_vec());
             }
-            Self::Single => bytes.as_chunks().0.iter().enumerate().for_each(|(index, &value)| each(index, f32::from_le_bytes(value))),
+            Self::Single => values.extend(bytes.as_chunks().0.iter().map(|&value| f32::from_le_bytes(value))),
             #[expect(clippy::cast_possible_truncation, reason = "24 bits are more than a half keeps")]
-            Self::Double => {
-                bytes.as_chunks().0.iter().enumerate().for_each(|(index, &value)| each(index, f64::from_le_bytes(value) as f32))
-            }
+            Self::Double => values.extend(bytes.as_chunks().0.iter().map(|&value| f64::from_le_bytes(value) as f32)),
         }
     }
 }
@@ -81,28 +80,28 @@ impl Table {
         self.columns * self.scalar.bytes()
     }
 
-    /// Calls `each(index, value)` for the values of rows `first..first + rows`, in order; indices start at 0.
+    /// Calls `each(row, values)` for rows `first..first + rows`, in order; rows are counted from 0.
     pub(super) fn read(
-        &self, container: &Container, first: usize, rows: usize, mut each: impl FnMut(usize, f32),
+        &self, container: &Container, first: usize, rows: usize, mut each: impl FnMut(usize, &[f32]),
     ) -> Result<(), BtfFileError> {
-        let size = self.scalar.bytes();
-        let mut bytes = vec![0; (rows * self.row_bytes()).min(PIECE)];
-        for start in (0..rows * self.row_bytes()).step_by(PIECE) {
-            let piece = &mut bytes[..(rows * self.row_bytes() - start).min(PIECE)];
-            container.read(piece, self.offset + first as u64 * self.row_bytes() as u64 + start as u64)?;
-            self.scalar.decode(piece, |index, value| each(start / size + index, value));
+        let at_once = (PIECE / self.row_bytes()).clamp(1, rows.max(1));
+        let (mut bytes, mut values) = (vec![0; at_once * self.row_bytes()], Vec::new());
+        for start in (0..rows).step_by(at_once) {
+            let piece = &mut bytes[..at_once.min(rows - start) * self.row_bytes()];
+            container.read(piece, self.offset + (first + start) as u64 * self.row_bytes() as u64)?;
+            values.clear();
+            self.scalar.decode(piece, &mut values);
+            values.chunks_exact(self.columns).enumerate().for_each(|(row, values)| each(start + row, values));
         }
         Ok(())
     }
 
-    /// All values, each row followed by one of `last`, or by nothing where that is empty.
+    /// All values, each row followed by what `last` gives for it.
     pub(super) fn load(&self, container: &Container, last: impl Fn(usize) -> Option<f32>) -> Result<Vec<f32>, BtfFileError> {
         let mut values = Vec::with_capacity(self.rows * (self.columns + usize::from(last(0).is_some())));
-        self.read(container, 0, self.rows, |index, value| {
-            values.push(value);
-            if (index + 1).is_multiple_of(self.columns) {
-                values.extend(last(index / self.columns));
-            }
+        self.read(container, 0, self.rows, |row, stored| {
+            values.extend_from_slice(stored);
+            values.extend(last(row));
         })?;
         Ok(values)
     }
