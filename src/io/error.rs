@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{SelectionFault, lights::LightFault};
+use super::{BtfFileError, SelectionFault, lights::LightFault};
 use crate::data::{BtfError, Direction, ShapeError, Transfer};
 
 /// Everything that can go wrong with files. A `file` is a path, or an archive's path and the name inside it.
@@ -228,6 +228,9 @@ pub enum IoError {
     /// A description that is no BTF.
     #[error(transparent)]
     Btf(#[from] BtfError),
+    /// A `.btf` container.
+    #[error(transparent)]
+    BtfFile(#[from] BtfFileError),
 
     /// A folder that holds no material.
     #[error("{path} is no overpaint material: {found}; name a folder written by `overpaint fit`", path = path.display())]

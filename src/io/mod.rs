@@ -4,6 +4,7 @@
 //! not at all: it is made in a hidden folder beside its target and renamed into place.
 
 mod archive;
+mod btf_file;
 pub mod conventions;
 pub mod dataset;
 mod error;
@@ -22,10 +23,11 @@ mod unfinished;
 
 use std::path::Path;
 
+pub use btf_file::BtfFileError;
 pub use error::{ArrayFault, IoError};
 pub use names::directions_in_name;
 pub use selection::SelectionFault;
-pub use source::{ReadOptions, Source, open, open_with, open_zip_bytes};
+pub use source::{ReadOptions, Source, open, open_btf_bytes, open_with, open_zip_bytes};
 pub use staging::write;
 pub use unfinished::Unfinished;
 

@@ -1,10 +1,10 @@
 //! Measured sources: where a BTF's samples come from.
 
-use std::{fmt::Debug, path::Path};
+use std::{fmt::Debug, path::Path, sync::Arc};
 
 use half::f16;
 
-use super::{IoError, archive::Archive, dataset, lights, selection, tree};
+use super::{IoError, archive::Archive, btf_file::BtfFile, dataset, lights, selection, tree};
 use crate::data::{Block, Btf, Encoding, Map, RowOrder, Transfer};
 
 /// A measured BTF whose samples are read from where they lie, from any number of threads at once. Nothing is cached: each call
@@ -88,11 +88,13 @@ impl ReadOptions {
     }
 }
 
-/// Opens a dataset, or a folder or a .zip archive (without unpacking it) of images: named by their directions, else those of a light file
-/// (see [`lights`]). An `.lp` light file may be named itself. The name of the folder or archive names the BTF.
+/// Opens a dataset; a `.btf` container, which is known by its first bytes; or a folder or a .zip archive (without unpacking it) of images:
+/// named by their directions, else those of a light file (see [`lights`]). An `.lp` light file may be named itself. The name of the folder,
+/// archive or container names the BTF.
 ///
 /// # Errors
-/// [`IoError`] if there is nothing, no image or no directions, if a pair is there twice, or if the first image cannot be read.
+/// [`IoError`] if there is nothing, no image or no directions, if a pair is there twice, if the first image cannot be read, or if a container's
+/// header is damaged or of an unknown kind.
 pub fn open(path: &Path) -> Result<Box<dyn Source>, IoError> {
     open_with(path, &ReadOptions::default())
 }
@@ -112,10 +114,21 @@ fn open_whole(path: &Path, options: &ReadOptions) -> Result<Box<dyn Source>, IoE
         }
         return dataset::open(path);
     }
+    if BtfFile::is_one(path) {
+        return Ok(Box::new(BtfFile::open(path, options)?));
+    }
     if let Some((folder, name)) = light_file(path) {
         return Ok(Box::new(lights::open(Archive::open(folder)?, Some(name), options)?));
     }
     open_images(Archive::open(path)?, options)
+}
+
+/// Opens a `.btf` container that is in memory. `name` names the BTF, and the file in errors.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_btf_bytes(name: &str, bytes: impl Into<Arc<[u8]>>, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
+    selection::select(Box::new(BtfFile::from_bytes(name, bytes.into(), options)?), options)
 }
 
 /// Opens a .zip archive that is in memory, as the sample embedded in the program is. `name` names the BTF.
@@ -138,8 +151,8 @@ fn light_file(path: &Path) -> Option<(&Path, &str)> {
     Some((folder, path.file_name()?.to_str()?)).filter(|_| is_lp)
 }
 
-/// Whether it is a dataset, or there are images and directions for them, judged by names.
+/// Whether it is a dataset or a `.btf` container, or there are images and directions for them, judged by names.
 pub(super) fn is_source(path: &Path) -> bool {
     let has_images = |archive| tree::has_samples(&archive) || lights::has_lights(&archive);
-    dataset::is_dataset(path) || light_file(path).is_some() || Archive::open(path).is_ok_and(has_images)
+    dataset::is_dataset(path) || BtfFile::has_signature(path) || light_file(path).is_some() || Archive::open(path).is_ok_and(has_images)
 }

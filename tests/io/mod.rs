@@ -1,6 +1,8 @@
 //! Readers and writers.
 
-crate::suites! { archive, dataset, deep, encoding, lights, material, measured, openexr, picture, radiance_hdr, selection, tree }
+crate::suites! {
+    archive, btf_file, corpus, dataset, deep, encoding, lights, material, measured, openexr, picture, radiance_hdr, selection, tree,
+}
 
 use std::{io::Cursor, path::Path};
 
