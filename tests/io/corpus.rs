@@ -7,11 +7,23 @@ use std::{
 
 #[path = "../fuzz/btf_file.rs"]
 mod btf_file;
+#[path = "../fuzz/image_name.rs"]
+mod image_name;
+#[path = "../fuzz/light_file.rs"]
+mod light_file;
 
-crate::suite! { plain: containers; }
+crate::suite! { plain: containers, image_names, light_files; }
 
 fn containers() {
     each("btf_file", btf_file::exercise);
+}
+
+fn image_names() {
+    each("image_name", image_name::exercise);
+}
+
+fn light_files() {
+    each("light_file", light_file::exercise);
 }
 
 /// Calls a target's function for every file of its corpus.
