@@ -69,7 +69,7 @@ fn kept_tiles_are_taken_up(gpu: &Gpu) {
     assert!(!unfinished.is_resumed());
     assert!(whole == fitted(gpu, &source, memory(10, 20), Some(&unfinished)));
     let kept = unfinished.names().expect("is listed");
-    assert!(kept.len() > 10, "{kept:?}");
+    assert!(kept.len() >= 10, "{kept:?}");
     drop(unfinished);
 
     let hidden = folder.path().join(".speckle.zarr.unfinished");

@@ -41,7 +41,10 @@ impl DatasetWriter {
         let side = format::side(btf.pairs().len());
         let unfinished = Unfinished::begin(target, &job(btf, fingerprint, side))?;
         let failed = zarr_fault(target, format::RADIANCE);
-        std::fs::create_dir_all(unfinished.result()).map_err(|source| IoError::Write { path: target.to_owned(), source })?;
+        // Complete, it may have been moved already: then nothing must stand in its place again.
+        if !unfinished.is_complete() {
+            std::fs::create_dir_all(unfinished.result()).map_err(|source| IoError::Write { path: target.to_owned(), source })?;
+        }
         let store = Store::new(FilesystemStore::new(unfinished.result()).map_err(|error| failed(&error))?);
         let [width, height] = btf.size();
         let (views, slots) = (btf.views().len(), format::slots(btf));
