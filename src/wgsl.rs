@@ -29,6 +29,8 @@ sources! {
     FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
     /// One layer of paint over diffuse reflectance.
     KUBELKA_MUNK = "kernels" "kubelka_munk";
+    /// Rays against a periodic height field, exactly.
+    HEIGHT_MARCH = "kernels/common" "height_march";
     /// The Lafortune lobe.
     LAFORTUNE = "kernels/common" "lafortune";
     /// Texels whose Lafortune fit still runs.
@@ -79,6 +81,8 @@ sources! {
     SRGB_DECODE = "kernels" "srgb_decode";
     /// The maps and directions that shading reads.
     SURFACE = "kernels/common" "surface";
+    /// Radiance of a material that is fully known.
+    SYNTH = "kernels" "synth";
     /// Index of a thread in a folded grid.
     THREAD = "kernels/common" "thread";
 }

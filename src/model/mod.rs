@@ -12,6 +12,7 @@ pub mod pattern;
 pub mod pigments;
 mod relief;
 mod settings;
+mod synth;
 
 pub use boundary::Boundary;
 pub use coat::Coat;
@@ -23,3 +24,4 @@ pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;
 pub use relief::Relief;
 pub use settings::{FitSettings, SettingsError, SpecularScale};
+pub use synth::{HeightField, Synth, SynthError, SynthPlace, SynthReflectance, SynthTexel};

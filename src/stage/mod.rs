@@ -17,6 +17,7 @@ mod specular_residual;
 mod specular_scale;
 mod srgb_decode;
 mod surface;
+mod synth;
 mod tile;
 
 pub use brdf_values::BrdfValues;
@@ -35,6 +36,7 @@ pub use specular_residual::SpecularResidual;
 pub use specular_scale::SpecularScale;
 pub use srgb_decode::SrgbDecode;
 pub use surface::{Scene, Surface};
+pub use synth::{Rendered, Synth, SynthSurface};
 pub use tile::Tile;
 
 pub(crate) use scalar::count;
