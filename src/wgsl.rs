@@ -27,6 +27,8 @@ sources! {
     FILM = "kernels/common" "film";
     /// Spectrum of a height field from that of its slopes.
     FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
+    /// Samples into a tile, masked where they are no radiance.
+    GATHER = "kernels" "gather";
     /// One layer of paint over diffuse reflectance.
     KUBELKA_MUNK = "kernels" "kubelka_munk";
     /// Rays against a periodic height field, exactly.

@@ -55,6 +55,15 @@ impl Block {
         (left < right && top < bottom).then(|| Self { column: left, row: top, width: right - left, height: bottom - top })
     }
 
+    /// The smallest block that holds both.
+    #[must_use]
+    pub fn hull(&self, other: &Self) -> Self {
+        let (column, row) = (self.column.min(other.column), self.row.min(other.row));
+        let right = (self.column + self.width).max(other.column + other.width);
+        let bottom = (self.row + self.height).max(other.row + other.height);
+        Self { column, row, width: right - column, height: bottom - row }
+    }
+
     /// The plane of `size` cut into blocks of at most `side` columns and rows, row by row; those at the right and at the bottom are as
     /// small as they must be.
     pub fn tiles([width, height]: [usize; 2], [columns, rows]: [usize; 2]) -> impl Iterator<Item = Self> {

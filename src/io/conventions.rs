@@ -13,6 +13,9 @@ const PIXEL: Convention =
 /// Conventions of a source.
 pub const SOURCE: &[Convention] = &[ROWS, AXES, ANGLES, PIXEL];
 
+/// Conventions of a dataset.
+pub const DATASET: &[Convention] = &[ROWS, AXES, ANGLES, COLOR, PIXEL];
+
 /// Conventions of a material.
 pub const MATERIAL: &[Convention] = &[
     ROWS,

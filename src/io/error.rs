@@ -30,6 +30,27 @@ pub enum IoError {
         source: std::io::Error,
     },
 
+    /// The unfinished work of another job.
+    #[error(
+        "an unfinished job for {target} stands in {folder} and differs from this one in: {differing}; run that job to its end, choose \
+         another name, or remove the folder to start over",
+        target = target.display(), folder = folder.display()
+    )]
+    OtherJob {
+        /// What the job makes.
+        target: PathBuf,
+        /// Its work so far.
+        folder: PathBuf,
+        /// In what the two jobs differ.
+        differing: String,
+    },
+    /// Another process makes the same target.
+    #[error("another process is working on {target}; wait for it or choose another name", target = target.display())]
+    Running {
+        /// The target.
+        target: PathBuf,
+    },
+
     /// A file that is no archive.
     #[error("{path} is neither a folder nor a .zip archive: it starts with {found}; name a folder or a .zip of images", path = path.display())]
     NotAnArchive {
@@ -187,11 +208,21 @@ pub enum IoError {
         /// What was found instead.
         found: String,
     },
-    /// A material of another version of the format.
-    #[error("{path} has version {found} of the material format, this program reads version {expected}; use the program that wrote it, or fit again", path = path.display())]
+    /// A folder that holds no dataset.
+    #[error("{path} is no overpaint dataset: {found}; name a folder written by `overpaint import`", path = path.display())]
+    NotADataset {
+        /// The folder.
+        path: PathBuf,
+        /// What was found instead.
+        found: String,
+    },
+    /// A material or dataset of another version of its form.
+    #[error("{path} has version {found} of the {what} format, this program reads version {expected}; use the program that wrote it, or make it again", path = path.display())]
     Version {
         /// The folder.
         path: PathBuf,
+        /// "material" or "dataset".
+        what: &'static str,
         /// Its version.
         found: String,
         /// The version read here.
@@ -206,6 +237,22 @@ pub enum IoError {
         array: &'static str,
         /// What is wrong with it.
         fault: ArrayFault,
+    },
+    /// One array of a dataset.
+    #[error("array \"{array}\" of {path}: {fault}; check that the disk has room, restore it from a copy, or import it again", path = path.display())]
+    Dataset {
+        /// The dataset.
+        path: PathBuf,
+        /// The array's name.
+        array: &'static str,
+        /// What is wrong with it.
+        fault: ArrayFault,
+    },
+    /// Encodings of a dataset, which has none.
+    #[error("{path} is a dataset and holds radiance already: give transfer, cosine, rows and scale when it is imported", path = path.display())]
+    AlreadyRadiance {
+        /// The dataset.
+        path: PathBuf,
     },
     /// A target that is not to be replaced.
     #[error("{path} is left as it is: {found}; choose another name, or move it away", path = path.display())]

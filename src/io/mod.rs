@@ -5,26 +5,30 @@
 
 mod archive;
 pub mod conventions;
+pub mod dataset;
 mod error;
+mod group;
 pub mod material;
 pub mod picture;
 mod raster;
 mod source;
 mod staging;
 mod tree;
+mod unfinished;
 
 use std::path::Path;
 
 pub use error::{ArrayFault, IoError};
 pub use source::{ReadOptions, Source, open, open_with, open_zip_bytes};
 pub use staging::write;
+pub use unfinished::Unfinished;
 
 /// What a path holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A recovered material, which [`material::load`] reads.
     Material,
-    /// Images named by their directions, which [`open`] reads.
+    /// Images named by their directions, or a dataset, which [`open`] reads.
     Source,
     /// Neither; the error of [`open`] says why.
     Neither,

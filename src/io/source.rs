@@ -4,7 +4,7 @@ use std::{fmt::Debug, path::Path};
 
 use half::f16;
 
-use super::{IoError, archive::Archive, tree::ImageTree};
+use super::{IoError, archive::Archive, dataset, tree::ImageTree};
 use crate::data::{Block, Btf, Encoding, Map, RowOrder, Transfer};
 
 /// A measured BTF whose samples are read from where they lie, from any number of threads at once. Nothing is cached: each call
@@ -76,7 +76,7 @@ impl ReadOptions {
     }
 }
 
-/// Opens a folder, or a .zip archive without unpacking it, of images named by their directions. The name of the folder
+/// Opens a dataset, or a folder or a .zip archive (without unpacking it) of images named by their directions. The name of the folder
 /// or archive names the BTF.
 ///
 /// # Errors
@@ -91,6 +91,12 @@ pub fn open(path: &Path) -> Result<Box<dyn Source>, IoError> {
 /// # Errors
 /// As [`open`].
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
+    if dataset::is_dataset(path) {
+        if *options != ReadOptions::default() {
+            return Err(IoError::AlreadyRadiance { path: path.to_owned() });
+        }
+        return dataset::open(path);
+    }
     Ok(Box::new(ImageTree::open(Archive::open(path)?, options)?))
 }
 
@@ -102,7 +108,7 @@ pub fn open_zip_bytes(name: &str, bytes: &'static [u8]) -> Result<Box<dyn Source
     Ok(Box::new(ImageTree::open(Archive::from_bytes(name, bytes)?, &ReadOptions::default())?))
 }
 
-/// Whether there is at least one image named by its directions.
+/// Whether it is a dataset or there is at least one image named by its directions.
 pub(super) fn is_source(path: &Path) -> bool {
-    Archive::open(path).is_ok_and(|archive| ImageTree::has_samples(&archive))
+    dataset::is_dataset(path) || Archive::open(path).is_ok_and(|archive| ImageTree::has_samples(&archive))
 }

@@ -3,6 +3,7 @@
 mod brdf_values;
 mod fft;
 mod frankot_chellappa;
+mod gather;
 mod kubelka_munk;
 mod lafortune_fit;
 mod normals;
@@ -22,6 +23,7 @@ mod synth;
 pub use brdf_values::brdf_values;
 pub use fft::fft;
 pub use frankot_chellappa::frankot_chellappa;
+pub use gather::gather;
 pub use kubelka_munk::{film, kubelka_munk};
 pub use lafortune_fit::{LafortuneFit, lafortune_fit, lafortune_gradient, lafortune_objective};
 pub use normals::normals;

@@ -9,9 +9,12 @@ use crate::{
 };
 
 /// The samples of a block of texels: halves in octets, `[channel][octet][texel]`.
+///
+/// A negative half, -1 where [`Gather`](super::Gather) makes it, marks a masked sample in all three channels alike: one that takes no
+/// part in anything. -0 does not occur.
 #[derive(Debug)]
 pub struct Tile {
-    /// The values, linear.
+    /// The values, linear; zero after the last sample.
     pub values: Buffer<[f16; OCTET]>,
     /// Number of texels.
     pub texels: usize,

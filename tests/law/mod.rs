@@ -5,6 +5,7 @@ crate::suites! {
     color,
     fft,
     frankot_chellappa,
+    gather,
     kubelka_munk,
     lafortune_fit,
     microfacet,

@@ -4,6 +4,7 @@ crate::suites! {
     brdf_values,
     fft,
     frankot_chellappa,
+    gather,
     kubelka_munk,
     lafortune_fit,
     microfacet,

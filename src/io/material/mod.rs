@@ -7,9 +7,9 @@
 
 mod format;
 
-use std::{fmt::Display, fs::File, io::Read, path::Path, sync::Arc};
+use std::{fmt::Display, path::Path, sync::Arc};
 
-use serde_json::{Value, json};
+use serde_json::json;
 use zarrs::{
     array::{Array, ArrayBuilder, CodecOptions, Element, ElementOwned, FillValue, codec::GzipCodec},
     filesystem::FilesystemStore,
@@ -20,11 +20,8 @@ use zarrs::{
 use format::Layout;
 pub use format::MATERIAL_FORMAT;
 
-use super::{ArrayFault, IoError, conventions, staging::Staging};
+use super::{ArrayFault, IoError, conventions, group, staging::Staging};
 use crate::data::{Fit, FitStatus, Map, Material, Provenance, ShapeError, Svbrdf};
-
-/// Metadata of a group are far smaller; whatever is larger is none of ours.
-const MAX_METADATA_BYTES: u64 = 1 << 24;
 
 /// Writes `material` as the folder `path`. Another material there is replaced; anything else is left as it is.
 ///
@@ -79,10 +76,10 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         return Err(IoError::NotFound { path: path.to_owned() });
     }
     let not_a_material = |found: String| IoError::NotAMaterial { path: path.to_owned(), found };
-    let attributes = attributes(path).map_err(not_a_material)?;
+    let attributes = group::attributes(path, MATERIAL_FORMAT).map_err(not_a_material)?;
     let version = &attributes["format_version"];
     if version.as_u64() != Some(format::VERSION) {
-        return Err(IoError::Version { path: path.to_owned(), found: version.to_string(), expected: format::VERSION });
+        return Err(IoError::Version { path: path.to_owned(), what: "material", found: version.to_string(), expected: format::VERSION });
     }
     let side = |name: &str| {
         let side = attributes[name].as_u64().and_then(|side| usize::try_from(side).ok()).filter(|&side| side > 0);
@@ -121,25 +118,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
 
 /// Whether `path` is a folder that says that it is a material, of whatever version.
 pub(super) fn is_material(path: &Path) -> bool {
-    attributes(path).is_ok()
-}
-
-/// The attributes of the group in folder `path`, or what it is instead of a material.
-fn attributes(path: &Path) -> Result<Value, String> {
-    let name = path.join("zarr.json");
-    let mut text = String::new();
-    let file = File::open(&name).map_err(|_| "it holds no zarr.json".to_owned())?;
-    file.take(MAX_METADATA_BYTES).read_to_string(&mut text).map_err(|error| format!("its zarr.json cannot be read: {error}"))?;
-    let mut metadata: Value = serde_json::from_str(&text).map_err(|error| format!("its zarr.json cannot be read: {error}"))?;
-    if metadata["zarr_format"] != 3 || metadata["node_type"] != "group" {
-        return Err("its zarr.json is not that of a Zarr v3 group".to_owned());
-    }
-    let attributes = metadata["attributes"].take();
-    if attributes["format"] == MATERIAL_FORMAT {
-        Ok(attributes)
-    } else {
-        Err(format!("its attribute \"format\" is {}", attributes["format"]))
-    }
+    group::attributes(path, MATERIAL_FORMAT).is_ok()
 }
 
 /// Checks that [`save`] may put a material at `path`: nothing is there, or a folder that holds a material and nothing else. [`save`]
@@ -148,36 +127,7 @@ fn attributes(path: &Path) -> Result<Value, String> {
 /// # Errors
 /// [`IoError::Occupied`] if something else stands there, [`IoError::Read`] if it cannot be looked at.
 pub fn check_target(path: &Path) -> Result<(), IoError> {
-    let occupied = |found: String| Err(IoError::Occupied { path: path.to_owned(), found });
-    if path.symlink_metadata().is_err() {
-        return Ok(());
-    }
-    if path.is_symlink() {
-        return occupied("it is a link".to_owned());
-    }
-    if let Err(found) = attributes(path) {
-        return occupied(format!("it is there and no overpaint material ({found})"));
-    }
-    // Replacing removes the folder: nothing may be lost but what `save` wrote.
-    let unreadable = |source| IoError::Read { file: path.display().to_string(), source };
-    let ours = |file: &Path| {
-        let mut parts = file.iter().map(|part| part.to_str().unwrap_or_default());
-        match (parts.next(), parts.next()) {
-            (Some("zarr.json"), None) => true,
-            (Some(array), None | Some("zarr.json" | "c")) => format::NAMES.contains(&array),
-            _ => false,
-        }
-    };
-    for entry in std::fs::read_dir(path).map_err(unreadable)? {
-        let entry = entry.map_err(unreadable)?.path();
-        let inner =
-            if entry.is_dir() { std::fs::read_dir(&entry).map_err(unreadable)?.collect::<Result<Vec<_>, _>>() } else { Ok(Vec::new()) };
-        let inner = inner.map_err(unreadable)?.into_iter().map(|inner| inner.path());
-        if let Some(foreign) = inner.chain([entry]).find(|file| !file.strip_prefix(path).is_ok_and(ours)) {
-            return occupied(format!("it also holds {}, which is no part of a material", foreign.display()));
-        }
-    }
-    Ok(())
+    group::check_target(path, MATERIAL_FORMAT, "material", &format::NAMES)
 }
 
 /// A number that arrays hold.
