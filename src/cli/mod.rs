@@ -14,6 +14,7 @@ mod output;
 mod reconstruct;
 mod render;
 mod session;
+mod synth;
 
 use std::{
     ffi::OsString,
@@ -52,6 +53,7 @@ enum Command {
     Info(info::Info),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
+    Synth(synth::Synth),
     Adapters(adapters::Adapters),
 }
 
@@ -66,6 +68,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Fit(fit) => fit.run(&session),
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
+        Command::Synth(synth) => synth.run(&session),
         Command::Info(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
             .error(clap::error::ErrorKind::ArgumentConflict, "--adapter and --timings are for commands that compute; leave them out here")
             .into()),

@@ -14,6 +14,7 @@ mod raster;
 mod source;
 mod staging;
 mod tree;
+mod tree_writer;
 mod unfinished;
 
 use std::path::Path;
@@ -21,6 +22,7 @@ use std::path::Path;
 pub use error::{ArrayFault, IoError};
 pub use source::{ReadOptions, Source, open, open_with, open_zip_bytes};
 pub use staging::write;
+pub use tree_writer::{Lost, TreeFormat, TreeWriter};
 pub use unfinished::Unfinished;
 
 /// What a path holds.

@@ -41,4 +41,4 @@ pub use surface::{Scene, Surface};
 pub use synth::{Rendered, Synth, SynthSurface};
 pub use tile::Tile;
 
-pub(crate) use scalar::count;
+pub(crate) use scalar::{count, single};
