@@ -78,7 +78,8 @@ impl Synth {
             reflectance: self.reflectance,
             seed: self.seed,
         };
-        let stem = self.output.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = self.output.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let stem = name.strip_suffix(".zarr").unwrap_or(&name).to_owned();
         let truth = self.output.with_file_name(format!("{stem}-truth.zarr"));
         if self.tree.is_none() {
             io::dataset::check_target(&self.output)?;
