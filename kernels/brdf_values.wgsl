@@ -1,5 +1,5 @@
 // Reflectance from radiance: f = L_o / cos theta_i (thesis eq. 3.5), one thread an octet of one texel and channel.
-// Twin: reference::brdf_values.
+// Masked samples stay masked. Twin: reference::brdf_values.
 #import thread
 #import octet
 
@@ -11,14 +11,18 @@ struct Params {
 @group(0) @binding(0) var<uniform> params: Params;
 // [octet][2], 1/cos theta_i of each sample, 0 past the last
 @group(0) @binding(1) var<storage, read> inverse_cosines: array<vec4<f32>>;
-// [channel][octet][texel], radiance in reflectance units
+// [channel][octet][texel], radiance in reflectance units, negative where masked
 @group(0) @binding(2) var<storage, read> radiance: array<vec4<u32>>;
-// [channel][octet][texel], pi times the reflectance
+// [channel][octet][texel], pi times the reflectance, -1 where masked
 @group(0) @binding(3) var<storage, read_write> reflectance: array<vec4<u32>>;
 
 const SIZE: u32 = 64u;
 // The largest half: a reflectance beyond it is a fault of the measurement and must not become infinite.
 const MAX_HALF: vec4<f32> = vec4(65504.0);
+
+fn divide(radiance: vec4<f32>, inverse_cosine: vec4<f32>) -> vec4<f32> {
+    return select(min(radiance * inverse_cosine, MAX_HALF), vec4(-1.0), radiance < vec4(0.0));
+}
 
 @compute @workgroup_size(SIZE)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
@@ -28,7 +32,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     let octet = (index / params.texels) % params.octets;
     var values = unpack_octet(radiance[index]);
-    values.low = min(values.low * inverse_cosines[2u * octet], MAX_HALF);
-    values.high = min(values.high * inverse_cosines[2u * octet + 1u], MAX_HALF);
+    values.low = divide(values.low, inverse_cosines[2u * octet]);
+    values.high = divide(values.high, inverse_cosines[2u * octet + 1u]);
     reflectance[index] = pack_octet(values);
 }

@@ -1,6 +1,7 @@
 // One step of Levenberg-Marquardt for each texel's Lafortune lobe: evaluate the candidate, accept or reject it, propose the
 // next. Minimises E = sum_k (A (k . p_k)^n - s_k)^2 over A, the unit vector k and nu = ln n (Lafortune et al. 1997; thesis
-// section 3.2.2, step 5), with p_k = w_i * w_o by components and s_k the mean specular residual. One thread a texel.
+// section 3.2.2, step 5), with p_k = w_i * w_o by components and s_k the mean specular residual, over the samples that
+// are not masked. One thread a texel.
 //
 // One fused pass sums the Gram matrix of (m, w p, l, r) with m = (k . p)^n, w = m/(k . p), l = m ln(k . p), r = A m - s;
 // it holds all that the step needs: A is linear, so its best value and the objective there follow in closed form
@@ -27,7 +28,7 @@ struct Params {
 @group(0) @binding(0) var<uniform> params: Params;
 // [sample, filled up to octets], w_i * w_o by components, w = 0; zero past the last sample
 @group(0) @binding(1) var<storage, read> products: array<vec4<f32>>;
-// [octet][texel], mean specular residual as halves
+// [octet][texel], mean specular residual as halves, negative where masked
 @group(0) @binding(2) var<storage, read> residual: array<vec4<u32>>;
 // [texel]
 @group(0) @binding(3) var<storage, read_write> states: array<FitState>;
@@ -66,14 +67,15 @@ fn add(gram: ptr<function, Gram>, other: Gram) {
     (*gram).mixed_nu += other.mixed_nu;
 }
 
+// A masked sample (s < 0) is taken as one with s = 0 that no lobe reaches, so that each of its terms is 0.
 fn add_sample(gram: ptr<function, Gram>, candidate: vec4<f32>, amplitude: f32, product: vec3<f32>, s: f32) {
     let base = dot(candidate.xyz, product);
-    let positive = base > 0.0;
+    let positive = (base > 0.0) & (s >= 0.0);
     let log_base = log2(select(1.0, base, positive));
     let m = select(0.0, exp2(candidate.w * log_base), positive);
     let w = m / select(1.0, base, positive);
     let g = vec4(w * product, m * log_base * 0.6931471805599453);
-    let r = amplitude * m - s;
+    let r = amplitude * m - max(s, 0.0);
     (*gram).mm += m * m;
     (*gram).mr += m * r;
     (*gram).rr += r * r;
@@ -191,21 +193,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     var state = states[texel];
     let gram = gram_at(texel, state.candidate, state.amplitude);
     let first = state.objective < 0.0;
-    if first {
-        // s = A m - r
-        state.energy = max(gram.rr + state.amplitude * (state.amplitude * gram.mm - 2.0 * gram.mr), 0.0);
-        if state.energy == 0.0 {
-            state.status = NO_SPECULAR;
-            state.objective = 0.0;
-            states[texel] = state;
-            return;
-        }
-        if gram.mm == 0.0 {
-            state.status = STALLED;
-            state.objective = state.energy;
-            states[texel] = state;
-            return;
-        }
+    if first && gram.mm == 0.0 {
+        state.status = STALLED;
+        state.objective = state.energy;
+        states[texel] = state;
+        return;
     }
     state.iterations += 1u;
     let correction = gram.mr / max(gram.mm, 1e-30);

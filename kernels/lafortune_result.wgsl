@@ -5,18 +5,22 @@
 
 struct Params {
     texels: u32,
-    samples: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
 // [texel]
 @group(0) @binding(1) var<storage, read> states: array<FitState>;
-// [texel], (C_x, C_y, C_z, n)
-@group(0) @binding(2) var<storage, read_write> lobes: array<vec4<f32>>;
-// [texel], mean squared residual without a lobe and with it, reflectance^2
-@group(0) @binding(3) var<storage, read_write> objectives: array<vec2<f32>>;
+// [texel]
+@group(0) @binding(2) var<storage, read> energies: array<Energy>;
+// [texel], (C_x, C_y, C_z, n); C = 0 and n = 1: no lobe
+@group(0) @binding(3) var<storage, read_write> lobes: array<vec4<f32>>;
+// [texel], mean squared residual of the valid samples without a lobe and with it, reflectance^2
+@group(0) @binding(4) var<storage, read_write> objectives: array<vec2<f32>>;
 // [texel], FitStatus and steps tried
-@group(0) @binding(4) var<storage, read_write> outcomes: array<vec2<u32>>;
+@group(0) @binding(5) var<storage, read_write> outcomes: array<vec2<u32>>;
 
 const SIZE: u32 = 64u;
 
@@ -32,6 +36,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         lobe = vec4(state.point.xyz * pow(state.amplitude, 1.0 / state.point.w), state.point.w);
     }
     lobes[texel] = lobe;
-    objectives[texel] = vec2(state.energy, state.objective) / f32(params.samples);
+    objectives[texel] = vec2(state.energy, state.objective) / f32(max(energies[texel].valid, 1u));
     outcomes[texel] = vec2(state.status, state.iterations);
 }

@@ -1,5 +1,6 @@
 // Begins a descent of each texel's Lafortune fit: keeps the better of the last descent and the champion, then starts at
-// the given point, or at the champion if the given exponent is 0. One thread a texel.
+// the given point, or at the champion if the given exponent is 0. A texel without a specular part or with too few valid
+// samples does not start. One thread a texel.
 // Twin: reference::lafortune_fit.
 #import thread
 #import lafortune_state
@@ -10,13 +11,16 @@ struct Params {
     texels: u32,
     // 1 for the first descent, before which the state means nothing
     first: u32,
-    _pad0: u32,
-    _pad1: u32,
+    // valid samples that a fit takes at least
+    min_valid: u32,
+    _pad: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
 // [texel]
-@group(0) @binding(1) var<storage, read_write> states: array<FitState>;
+@group(0) @binding(1) var<storage, read> energies: array<Energy>;
+// [texel]
+@group(0) @binding(2) var<storage, read_write> states: array<FitState>;
 
 const SIZE: u32 = 64u;
 
@@ -47,8 +51,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     state.point = state.candidate;
     state.objective = -1.0;
+    state.energy = energies[texel].sum;
     state.damping = 1e-3;
     state.growth = 2.0;
     state.status = RUNNING;
+    if energies[texel].valid < params.min_valid {
+        state.status = TOO_FEW_SAMPLES;
+        state.objective = state.energy;
+    } else if state.energy == 0.0 {
+        state.status = NO_SPECULAR;
+        state.objective = 0.0;
+    }
     states[texel] = state;
 }

@@ -1,6 +1,7 @@
-// Exact quantile of each texel's reflectance, per channel: the order statistics around rank q(n - 1) and numpy's linear
-// rule between them. Radix select on order-preserving 16-bit keys of the halves, two bits a pass: eight passes of loads
-// that neighbouring threads share, no workgroup memory and no atomics; a ninth finds the upper neighbour.
+// Exact quantile of each texel's reflectance, per channel: the order statistics around rank q(n - 1) of its n valid samples
+// and numpy's linear rule between them. Radix select on the halves' bits, two a pass: eight passes of loads that
+// neighbouring threads share, no workgroup memory and no atomics; a ninth finds the upper neighbour. The bits of valid
+// samples, which have no sign, are in the order of their values; those of masked ones, which have, lie above them all.
 // One thread a texel. Twin: reference::percentile (a sort).
 #import thread
 
@@ -8,32 +9,33 @@ struct Params {
     texels: u32,
     octets: u32,
     samples: u32,
+    _pad: u32,
+}
+
+// Where the quantile of a number of samples lies.
+struct Position {
     // lower order statistic, counted from 0
     rank: u32,
     // weight of the upper one
     fraction: f32,
-    _pad0: u32,
-    _pad1: u32,
-    _pad2: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
-// [channel][octet][texel], halves
-@group(0) @binding(1) var<storage, read> values: array<vec4<u32>>;
-// [texel], the quantile of each channel, w = 0
-@group(0) @binding(2) var<storage, read_write> quantiles: array<vec4<f32>>;
+// [number of valid samples], from 0 to all
+@group(0) @binding(1) var<storage, read> positions: array<Position>;
+// [channel][octet][texel], halves, negative where masked
+@group(0) @binding(2) var<storage, read> values: array<vec4<u32>>;
+// [texel], the quantile of each channel, 0 without valid samples; w = 0
+@group(0) @binding(3) var<storage, read_write> quantiles: array<vec4<f32>>;
 
 const SIZE: u32 = 64u;
 
-// Two halves in a word -> two keys in the same order as the numbers.
 fn keys(word: u32) -> vec2<u32> {
-    let halves = vec2(word & 0xffffu, word >> 16u);
-    return select(halves | vec2(0x8000u), halves ^ vec2(0xffffu), halves >= vec2(0x8000u));
+    return vec2(word & 0xffffu, word >> 16u);
 }
 
 fn value(key: u32) -> f32 {
-    let half = select(key ^ 0xffffu, key ^ 0x8000u, key >= 0x8000u);
-    return unpack2x16float(half).x;
+    return unpack2x16float(key).x;
 }
 
 // Adds, for one word, how many of its keys that start with `prefix` have the next digit 0, 1 and 2.
@@ -51,12 +53,11 @@ fn next_above(word: u32, bound: u32, smallest: u32) -> u32 {
     return min(smallest, min(above.x, above.y));
 }
 
-// The last octet with whatever follows the last sample replaced by 0x7fff, a pattern that no number has and whose key is greatest.
+// The last octet with all that follows the last sample masked.
 fn mask_tail(words: vec4<u32>, count: u32) -> vec4<u32> {
     var masked = words;
     for (var i = count; i < 8u; i++) {
-        let shift = 16u * (i & 1u);
-        masked[i / 2u] = (masked[i / 2u] & ~(0xffffu << shift)) | (0x7fffu << shift);
+        masked[i / 2u] |= 0xffffu << (16u * (i & 1u));
     }
     return masked;
 }
@@ -67,7 +68,8 @@ fn quantile(texel: u32, channel: u32) -> f32 {
     let tail = params.samples - last * 8u;
 
     var prefix = 0u;
-    var rank = params.rank;
+    var rank = 0u;
+    var fraction = 0.0;
     var equal = 0u;
     for (var shift = 14i; shift >= 0i; shift -= 2i) {
         var counts = vec3(0u);
@@ -80,6 +82,15 @@ fn quantile(texel: u32, channel: u32) -> f32 {
             counts = count_digits(words.y, prefix, u32(shift), counts);
             counts = count_digits(words.z, prefix, u32(shift), counts);
             counts = count_digits(words.w, prefix, u32(shift), counts);
+        }
+        if shift == 14i {
+            // No sign: the first digit is 0 or 1.
+            let valid = counts.x + counts.y;
+            if valid == 0u {
+                return 0.0;
+            }
+            rank = positions[valid].rank;
+            fraction = positions[valid].fraction;
         }
         var digit = 3u;
         if rank < counts.x {
@@ -103,7 +114,7 @@ fn quantile(texel: u32, channel: u32) -> f32 {
 
     let lower = value(prefix);
     var result = lower;
-    if params.fraction > 0.0 && rank + 1u >= equal {
+    if fraction > 0.0 && rank + 1u >= equal {
         var above = 0xffffffffu;
         var same = 0u;
         for (var octet = 0u; octet < params.octets; octet++) {
@@ -118,7 +129,7 @@ fn quantile(texel: u32, channel: u32) -> f32 {
             }
         }
         if rank + 1u >= same {
-            result = lower + (value(above) - lower) * params.fraction;
+            result = lower + (value(above) - lower) * fraction;
         }
     }
     return result;

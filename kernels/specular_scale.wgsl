@@ -1,5 +1,6 @@
 // rho_s of each channel once the lobe is known: the least-squares ratio sum s l / sum l^2, or the thesis' mean of s/l over
-// samples whose lobe is above a bound (eq. 3.6), with s = max(f - rho_d, 0). One thread a texel.
+// samples whose lobe is above a bound (eq. 3.6), with s = max(f - rho_d, 0), over the samples that are not masked.
+// One thread a texel.
 // Twin: reference::specular_scale.
 #import thread
 #import octet
@@ -16,7 +17,7 @@ struct Params {
 @group(0) @binding(0) var<uniform> params: Params;
 // [sample, filled up to octets], w_i * w_o by components; zero past the last sample
 @group(0) @binding(1) var<storage, read> products: array<vec4<f32>>;
-// [channel][octet][texel], pi times the reflectance
+// [channel][octet][texel], pi times the reflectance, negative where masked
 @group(0) @binding(2) var<storage, read> reflectance: array<vec4<u32>>;
 // [texel], rho_d of each channel
 @group(0) @binding(3) var<storage, read> diffuse: array<vec4<f32>>;
@@ -33,8 +34,10 @@ struct Sums {
     below: f32,
 }
 
-fn add_sample(sums: ptr<function, Sums>, lobe: vec4<f32>, product: vec3<f32>, s: vec3<f32>) {
-    let l = lafortune(lobe, product);
+fn add_sample(sums: ptr<function, Sums>, lobe: vec4<f32>, product: vec3<f32>, f: vec3<f32>, rho: vec3<f32>) {
+    // No lobe, no part in either sum.
+    let l = select(lafortune(lobe, product), 0.0, any(f < vec3(0.0)));
+    let s = max(f - rho, vec3(0.0));
     if params.rule == MEAN_RATIO {
         if l > params.min_lobe {
             (*sums).above += s / l;
@@ -53,7 +56,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
     let lobe = lobes[texel];
-    let rho = diffuse[texel];
+    let rho = diffuse[texel].rgb;
     let plane = params.octets * params.texels;
     var total = Sums();
     for (var octet = 0u; octet < params.octets; octet++) {
@@ -64,10 +67,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         // The eight samples of an octet are summed apart: shorter sums round less.
         var part = Sums();
         for (var i = 0u; i < 4u; i++) {
-            let low = max(vec3(red.low[i], green.low[i], blue.low[i]) - rho.rgb, vec3(0.0));
-            let high = max(vec3(red.high[i], green.high[i], blue.high[i]) - rho.rgb, vec3(0.0));
-            add_sample(&part, lobe, products[first + i].xyz, low);
-            add_sample(&part, lobe, products[first + 4u + i].xyz, high);
+            let low = vec3(red.low[i], green.low[i], blue.low[i]);
+            let high = vec3(red.high[i], green.high[i], blue.high[i]);
+            add_sample(&part, lobe, products[first + i].xyz, low, rho);
+            add_sample(&part, lobe, products[first + 4u + i].xyz, high, rho);
         }
         total.above += part.above;
         total.below += part.below;

@@ -37,6 +37,8 @@ sources! {
     LAFORTUNE = "kernels/common" "lafortune";
     /// Texels whose Lafortune fit still runs.
     LAFORTUNE_ACTIVE = "kernels" "lafortune_active";
+    /// Valid samples and energy of each texel's Lafortune fit.
+    LAFORTUNE_ENERGY = "kernels" "lafortune_energy";
     /// One step of the Lafortune fit.
     LAFORTUNE_FIT = "kernels" "lafortune_fit";
     /// End of the Lafortune fit.
@@ -79,8 +81,6 @@ sources! {
     SPECULAR_RESIDUAL = "kernels" "specular_residual";
     /// Specular reflectance per channel.
     SPECULAR_SCALE = "kernels" "specular_scale";
-    /// Tile of sRGB images to linear halves.
-    SRGB_DECODE = "kernels" "srgb_decode";
     /// The maps and directions that shading reads.
     SURFACE = "kernels/common" "surface";
     /// Radiance of a material that is fully known.

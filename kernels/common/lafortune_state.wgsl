@@ -25,7 +25,7 @@ struct FitState {
     foreseen: f32,
     // objective of `champion`, negative while there is none
     champion_objective: f32,
-    // objective without any lobe
+    // objective without any lobe: Energy's sum
     energy: f32,
     // FitStatus
     status: u32,
@@ -35,7 +35,16 @@ struct FitState {
     champion_amplitude: f32,
 }
 
+// What a texel's fit has to go on.
+struct Energy {
+    // samples that are not masked
+    valid: u32,
+    // of their squared residuals, reflectance^2
+    sum: f32,
+}
+
 const RUNNING: u32 = 0u;
 const CONVERGED: u32 = 1u;
 const NO_SPECULAR: u32 = 2u;
 const STALLED: u32 = 3u;
+const TOO_FEW_SAMPLES: u32 = 4u;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::{
-    data::Direction,
-    model::{Boundary, SpecularScale},
+    data::{Block, Direction, RowOrder, Transfer},
+    model::{Boundary, SpecularScale, StereoMethod},
 };
 
 /// Largest side of a picture: the largest texture that WebGPU guarantees.
@@ -80,6 +80,50 @@ pub fn refractive_index(text: &str) -> Result<f64, String> {
     number(text).ok().filter(|value| *value >= 1.0).ok_or_else(|| "expected a number of 1 or more".to_owned())
 }
 
+/// `srgb`, `linear` or `gamma:G`.
+pub fn transfer(text: &str) -> Result<Transfer, String> {
+    match (text, text.strip_prefix("gamma:").map(positive)) {
+        ("srgb", _) => Ok(Transfer::Srgb),
+        ("linear", _) => Ok(Transfer::Linear),
+        (_, Some(Ok(gamma))) => Ok(Transfer::Gamma(gamma)),
+        _ => Err("expected srgb, linear, or gamma and a number above 0, such as gamma:2.2".to_owned()),
+    }
+}
+
+/// Whether the cosine is in the stored values.
+pub fn cosine() -> impl TypedValueParser<Value = bool> {
+    PossibleValuesParser::new(["included", "excluded"]).map(|name| name == "included")
+}
+
+/// [`RowOrder`] by its name.
+pub fn rows() -> impl TypedValueParser<Value = RowOrder> {
+    PossibleValuesParser::new(["top-down", "bottom-up"]).map(|name| match name.as_str() {
+        "bottom-up" => RowOrder::BottomUp,
+        _ => RowOrder::TopDown,
+    })
+}
+
+/// `X,Y,WxH` in texels.
+pub fn region(text: &str) -> Result<Block, String> {
+    let parse = || {
+        let (corner, size) = text.rsplit_once(',')?;
+        let ((column, row), (width, height)) = (corner.split_once(',')?, size.split_once('x')?);
+        let [column, row, width, height] = [column, row, width, height].map(|number| number.trim().parse().ok());
+        Some(Block { column: column?, row: row?, width: width?, height: height? }).filter(|block| block.width > 0 && block.height > 0)
+    };
+    parse().ok_or_else(|| "expected X,Y,WxH in texels, such as 64,0,128x128, W and H of 1 or more".to_owned())
+}
+
+/// An integer of 1 or more.
+pub fn step(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|step| *step > 0).ok_or_else(|| "expected an integer of 1 or more".to_owned())
+}
+
+/// An angle from the normal in degrees, from 0 to 90.
+pub fn angle_from_normal(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|angle| (0.0..=90.0).contains(angle)).ok_or_else(|| "expected an angle from 0 to 90 degrees".to_owned())
+}
+
 /// [`Boundary`] by its name.
 pub fn boundary() -> impl TypedValueParser<Value = Boundary> {
     PossibleValuesParser::new(["periodic", "mirror"]).map(|name| match name.as_str() {
@@ -93,5 +137,13 @@ pub fn specular_scale() -> impl TypedValueParser<Value = SpecularScale> {
     PossibleValuesParser::new(["least-squares", "mean-ratio"]).map(|name| match name.as_str() {
         "mean-ratio" => SpecularScale::MeanRatio,
         _ => SpecularScale::LeastSquares,
+    })
+}
+
+/// [`StereoMethod`] by its name.
+pub fn stereo_method() -> impl TypedValueParser<Value = StereoMethod> {
+    PossibleValuesParser::new(["robust", "least-squares"]).map(|name| match name.as_str() {
+        "least-squares" => StereoMethod::LeastSquares,
+        _ => StereoMethod::Robust,
     })
 }

@@ -4,10 +4,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CliError, arguments, output, say, session::SessionArguments};
+use super::{
+    CliError, arguments,
+    memory::{AdapterMemoryArguments, MemoryArguments},
+    output,
+    reading::ReadingArguments,
+    say,
+    session::SessionArguments,
+};
 use crate::{
-    io,
-    model::{Boundary, FitSettings, SpecularScale},
+    io::{self, Unfinished},
+    model::{Boundary, FitSettings, SpecularScale, StereoMethod},
     pipeline,
 };
 
@@ -17,10 +24,12 @@ use crate::{
 Examples:
   overpaint fit cloth.zip -o cloth.zarr
   overpaint fit photographs/ -o wall.zarr --boundary mirror --timings wall.json
+  overpaint fit cloth.zip -o corner.zarr --region 0,0,64x64 --max-theta 60
 
-SOURCE is a tree of images named by their directions (such as `tl030 pl090 tv000 pv000.jpg`), as a folder or in a .zip.")]
+SOURCE is a folder or a .zip of images: named by their directions (such as `tl030 pl090 tv000 pv000.jpg`), or of one view with a file of
+light directions (lights.txt, light_directions.txt, .lp).")]
 pub struct Fit {
-    /// The BTF: a folder or a .zip of images
+    /// The BTF: a folder or a .zip of images, or an .lp file
     source: PathBuf,
     /// The material to write, a Zarr group
     #[arg(short, long, value_name = "MATERIAL")]
@@ -28,6 +37,9 @@ pub struct Fit {
     /// What lies beyond the sample's edge: periodic if it tiles, mirror if it is a cut-out
     #[arg(long, default_value = "periodic", value_parser = arguments::boundary())]
     boundary: Boundary,
+    /// How normals follow from the images: robust gives little weight to shadows and highlights
+    #[arg(long, value_name = "METHOD", default_value = "robust", value_parser = arguments::stereo_method())]
+    stereo: StereoMethod,
     /// With mirror: keep the height's mean tilt
     #[arg(long)]
     keep_tilt: bool,
@@ -52,12 +64,19 @@ pub struct Fit {
     /// Least lobe that ρ_s is taken from: with mean-ratio of a sample, with least-squares the root of a texel's sum of squares
     #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, allow_negative_numbers = true, value_parser = arguments::positive)]
     min_lobe: f64,
+    #[command(flatten)]
+    memory: MemoryArguments,
+    #[command(flatten)]
+    adapter_memory: AdapterMemoryArguments,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 impl Fit {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         let settings = FitSettings {
             boundary: self.boundary,
+            stereo: self.stereo,
             max_slope: self.max_slope,
             min_cos_light: self.min_cos_light,
             diffuse_quantile: self.diffuse_quantile,
@@ -69,11 +88,17 @@ impl Fit {
             ..FitSettings::default()
         };
         output::check_material(&self.output)?;
-        let source = io::open(&self.source)?;
+        let source = io::open_with(&self.source, &self.reading.options())?;
         let session = session.open()?;
-        let material = pipeline::fit(&session.gpu, source.as_ref(), &settings, &session.progress)?;
-        io::material::save(&self.output, &material)?;
+        let unfinished = Unfinished::begin(&self.output, &pipeline::fit_job(&session.gpu, source.as_ref(), &settings))?;
+        if !unfinished.is_complete() {
+            let memory = self.memory.memory(Some(self.adapter_memory));
+            let material = pipeline::fit_within(&session.gpu, source.as_ref(), &settings, memory, Some(&unfinished), &session.progress)?;
+            io::material::save(&self.output, &material)?;
+        }
+        let resumed = if unfinished.is_resumed() { " (an earlier run had begun it)" } else { "" };
+        unfinished.commit()?;
         let times = session.finish()?;
-        say(&format!("{times}\nwrote {}", self.output.display()))
+        say(&format!("{times}\nwrote {}{resumed}", self.output.display()))
     }
 }

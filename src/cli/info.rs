@@ -2,10 +2,10 @@
 
 use std::{collections::BTreeMap, fmt::Display, path::PathBuf};
 
-use clap::Args;
+use clap::{Args, CommandFactory, error::ErrorKind};
 use serde::{Serialize, Serializer};
 
-use super::{CliError, say};
+use super::{Cli, CliError, reading::ReadingArguments, say};
 use crate::{
     data::{Btf, Direction, Encoding, FitStatus, Material, Provenance, RowOrder, Transfer},
     io::{
@@ -16,21 +16,27 @@ use crate::{
 
 /// Tell what a source or a material holds.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  overpaint info cloth.zip\n  overpaint info cloth.zarr --json")]
+#[command(after_help = "Examples:\n  overpaint info cloth.zip\n  overpaint info cloth.zip --every 3\n  overpaint info cloth.zarr --json")]
 pub struct Info {
-    /// A source (a folder or .zip of images) or a material
+    /// A source (a folder or .zip of images, an .lp file) or a material
     path: PathBuf,
     /// Print JSON, every direction included
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 impl Info {
     pub fn run(self) -> Result<(), CliError> {
         let content = match io::kind(&self.path) {
+            io::Kind::Material if self.reading.is_given() => {
+                let message = format!("{} is a material: options for reading are for sources; leave them out here", self.path.display());
+                return Err(Cli::command().error(ErrorKind::ArgumentConflict, message).into());
+            }
             io::Kind::Material => Content::of_material(&io::material::load(&self.path)?),
             // What is neither is refused by `open`, which says why.
-            io::Kind::Source | io::Kind::Neither => Content::of_source(io::open(&self.path)?.btf()),
+            io::Kind::Source | io::Kind::Neither => Content::of_source(io::open_with(&self.path, &self.reading.options())?.btf()),
         };
         let text = if self.json {
             serde_json::to_string_pretty(&content).map_err(|error| CliError::Stdout { source: error.into() })?
@@ -43,6 +49,9 @@ impl Info {
 
 /// Rings of directions that are listed one by one; all of the known grids have fewer.
 const LISTED_RINGS: usize = 12;
+
+/// Missing pairs that are listed.
+const LISTED_PAIRS: usize = 4;
 
 /// What a path holds, as printed.
 #[derive(Serialize)]
@@ -75,6 +84,10 @@ enum Content {
 struct Measured {
     samples: usize,
     every_pair: bool,
+    /// Pairs of a view and a light that have no sample.
+    missing: usize,
+    /// The first of them, (θ, φ) of view and light in degrees; of a material they are not known.
+    first_missing: Vec<[(f64, f64); 2]>,
     grid: Option<String>,
     encoding: Encoding,
     /// (θ, φ) in degrees.
@@ -85,13 +98,16 @@ struct Measured {
 
 impl Measured {
     fn of_source(btf: &Btf) -> Self {
+        let (views, lights) = (degrees(btf.views()), degrees(btf.lights()));
         Self {
             samples: btf.pairs().len(),
             every_pair: btf.is_product(),
+            missing: btf.missing(),
+            first_missing: btf.missing_pairs().take(LISTED_PAIRS).map(|pair| [views[pair.view], lights[pair.light]]).collect(),
             grid: btf.grid().map(str::to_owned),
             encoding: *btf.encoding(),
-            views: degrees(btf.views()),
-            lights: degrees(btf.lights()),
+            views,
+            lights,
         }
     }
 
@@ -100,6 +116,8 @@ impl Measured {
         Self {
             samples: *samples,
             every_pair: *samples == views.len() * lights.len(),
+            missing: (views.len() * lights.len()).saturating_sub(*samples),
+            first_missing: Vec::new(),
             grid: grid.clone(),
             encoding: *encoding,
             views: degrees(views),
@@ -120,6 +138,7 @@ fn fit_end(status: FitStatus) -> &'static str {
         FitStatus::Converged => "converged",
         FitStatus::NoSpecular => "no specular part",
         FitStatus::Stalled => "settled to rounding",
+        FitStatus::TooFewSamples => "too few valid samples",
     }
 }
 
@@ -191,10 +210,20 @@ impl Lines {
         }
     }
 
-    fn measured(&mut self, Measured { samples, every_pair, grid, encoding, views, lights }: &Measured) {
+    fn measured(&mut self, Measured { samples, every_pair, missing, first_missing, grid, encoding, views, lights }: &Measured) {
         self.add("views", rings(views));
         self.add("lights", rings(lights));
         self.add("samples", format!("{samples}{}", if *every_pair { ", every view under every light" } else { "" }));
+        if *missing > 0 {
+            self.add("missing", format!("{missing} of {} x {} pairs of a view and a light", views.len(), lights.len()));
+        }
+        self.list(
+            "",
+            first_missing.iter().map(|[view, light]| format!("view θ {} φ {}, light θ {} φ {}", view.0, view.1, light.0, light.1)),
+        );
+        if !first_missing.is_empty() && first_missing.len() < *missing {
+            self.add("", "…");
+        }
         self.add("grid", grid.as_deref().unwrap_or("none of the known ones"));
         let Encoding { transfer, includes_cosine, rows, scale, texels_per_mm } = encoding;
         let transfer = match transfer {

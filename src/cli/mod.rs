@@ -9,8 +9,11 @@ mod bar;
 mod demo;
 mod error;
 mod fit;
+mod import;
 mod info;
+mod memory;
 mod output;
+mod reading;
 mod reconstruct;
 mod render;
 mod session;
@@ -50,6 +53,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 enum Command {
     Demo(demo::Demo),
     Fit(fit::Fit),
+    Import(import::Import),
     Info(info::Info),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
@@ -66,6 +70,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
     match command {
         Command::Demo(demo) => demo.run(&session),
         Command::Fit(fit) => fit.run(&session),
+        Command::Import(import) => import.run(&session),
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
         Command::Synth(synth) => synth.run(&session),

@@ -19,6 +19,12 @@ pub fn check_material(path: &Path) -> Result<(), CliError> {
     check_parent(path)
 }
 
+/// Checks that a dataset of this path can be made: nothing is in its place but an older dataset, and its folder may be written.
+pub fn check_dataset(path: &Path) -> Result<(), CliError> {
+    io::dataset::check_target(path)?;
+    check_parent(path)
+}
+
 fn check_parent(path: &Path) -> Result<(), CliError> {
     let parent = match path.parent() {
         None => return refuse(path, "it names no file"),

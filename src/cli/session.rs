@@ -30,12 +30,25 @@ impl SessionArguments {
 
     /// Checks that the timings can be written, then opens the adapter.
     pub fn open(&self) -> Result<Session, CliError> {
-        if let Some(timings) = &self.timings {
-            output::check_file(timings)?;
-        }
+        self.check_timings()?;
         let gpu = Gpu::open(self.adapter.as_deref())?;
         let progress = Progress::observed(gpu.adapter(), bar::observer());
         Ok(Session { gpu, progress, timings: self.timings.clone() })
+    }
+
+    /// The progress of a job that needs no adapter; [`Self::finish`] ends it.
+    pub fn on_host(&self) -> Result<Progress, CliError> {
+        self.check_timings()?;
+        Ok(Progress::on_host(bar::observer()))
+    }
+
+    /// Ends the progress of a job, writes the timings if they were asked for, and returns them.
+    pub fn finish(&self, progress: Progress) -> Result<StageTable, CliError> {
+        finish(progress, self.timings.clone())
+    }
+
+    fn check_timings(&self) -> Result<(), CliError> {
+        self.timings.as_deref().map_or(Ok(()), output::check_file)
     }
 }
 
@@ -52,14 +65,18 @@ pub struct Session {
 impl Session {
     /// Ends the progress, writes the timings if they were asked for, and returns them.
     pub fn finish(self) -> Result<StageTable, CliError> {
-        let table = self.progress.report();
-        // The bar goes before anything else is printed.
-        drop(self.progress);
-        if let Some(path) = self.timings {
-            let json = serde_json::to_string_pretty(&table);
-            let json = json.map_err(|error| CliError::Write { path: path.clone(), source: error.into() })?;
-            io::write(&path, (json + "\n").as_bytes())?;
-        }
-        Ok(table)
+        finish(self.progress, self.timings)
     }
+}
+
+fn finish(progress: Progress, timings: Option<PathBuf>) -> Result<StageTable, CliError> {
+    let table = progress.report();
+    // The bar goes before anything else is printed.
+    drop(progress);
+    if let Some(path) = timings {
+        let json = serde_json::to_string_pretty(&table);
+        let json = json.map_err(|error| CliError::Write { path: path.clone(), source: error.into() })?;
+        io::write(&path, (json + "\n").as_bytes())?;
+    }
+    Ok(table)
 }

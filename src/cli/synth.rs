@@ -7,12 +7,12 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
 };
 
-use super::{CliError, arguments, output, say, session::SessionArguments};
+use super::{CliError, arguments, memory::MemoryArguments, output, say, session::SessionArguments};
 use crate::{
     data::Grid,
     io::{self, TreeFormat},
     model::{HeightField, Synth as Recipe, SynthReflectance},
-    pipeline::{self, Memory, Synthetic},
+    pipeline::{self, Synthetic},
 };
 
 /// Render a BTF of a material that is fully known, with its truth beside it: for benchmarks of any size, or without any data.
@@ -59,6 +59,8 @@ pub struct Synth {
     /// Quality of jpg
     #[arg(long, value_name = "1..100", default_value_t = 95, requires = "tree", allow_negative_numbers = true, value_parser = clap::value_parser!(u8).range(1..=100))]
     quality: u8,
+    #[command(flatten)]
+    memory: MemoryArguments,
 }
 
 /// Images of a tree.
@@ -82,12 +84,13 @@ impl Synth {
         let stem = name.strip_suffix(".zarr").unwrap_or(&name).to_owned();
         let truth = self.output.with_file_name(format!("{stem}-truth.zarr"));
         if self.tree.is_none() {
-            io::dataset::check_target(&self.output)?;
+            output::check_dataset(&self.output)?;
         }
         output::check_material(&truth)?;
 
         let session = session.open()?;
         let size = self.size.map(|side| side as usize);
+        let memory = self.memory.memory(None);
         let (views, lights) = (self.views.directions(), self.lights.directions());
         let source = Synthetic::new(&session.gpu, &stem, recipe, size, views, lights, &session.progress)?;
         io::material::save(&truth, &source.truth())?;
@@ -100,10 +103,10 @@ impl Synth {
         let mut notes = format!("wrote {} and its truth, {}", self.output.display(), truth.display());
         match format {
             None => {
-                pipeline::import(&source, &self.output, Memory::default(), &session.progress)?;
+                pipeline::import(&source, &self.output, memory, &session.progress)?;
             }
             Some(format) => {
-                let lost = pipeline::export_tree(&source, &self.output, format, Memory::default(), &session.progress)?;
+                let lost = pipeline::export_tree(&source, &self.output, format, memory, &session.progress)?;
                 if lost.clipped > 0 {
                     notes += &format!("\n{} values above 1 are stored as 1; --tree exr or a dataset keeps them", lost.clipped);
                 }

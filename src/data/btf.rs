@@ -1,6 +1,8 @@
 //! The description of a BTF: its texel plane, its (view, light) pairs and its conventions. The texels themselves come
 //! from a reader in [`io`](crate::io).
 
+use std::collections::BTreeSet;
+
 use super::{
     Direction, Encoding,
     grid::{Ring, UBO81, UBO151},
@@ -138,6 +140,23 @@ impl Btf {
         let lights = self.lights.len();
         self.pairs.len() == self.views.len() * lights
             && self.pairs.iter().enumerate().all(|(index, pair)| pair.view == index / lights && pair.light == index % lights)
+    }
+
+    /// How many pairs of a view and a light have no sample.
+    #[must_use]
+    pub fn missing(&self) -> usize {
+        self.views.len() * self.lights.len() - self.distinct_pairs().len()
+    }
+
+    /// The pairs of a view and a light that have no sample, view-major.
+    pub fn missing_pairs(&self) -> impl Iterator<Item = Pair> {
+        let mut there = self.distinct_pairs().into_iter().peekable();
+        let all = (0..self.views.len()).flat_map(|view| (0..self.lights.len()).map(move |light| Pair { view, light }));
+        all.filter(move |pair| there.next_if_eq(pair).is_none())
+    }
+
+    fn distinct_pairs(&self) -> BTreeSet<Pair> {
+        self.pairs.iter().copied().collect()
     }
 
     /// The samples of the view nearest the zenith: those that photometric stereo takes (Rushmeier et al. 1997).

@@ -18,6 +18,16 @@ impl Direction {
         Self { theta: theta.to_radians(), phi: phi.to_radians() }
     }
 
+    /// Of a vector of any length other than 0: φ from 0 to below 2π, 0 at the zenith.
+    #[must_use]
+    pub fn from_vector(vector: DVec3) -> Self {
+        let phi = vector.y.atan2(vector.x);
+        let turned = if phi < 0.0 { phi + std::f64::consts::TAU } else { phi };
+        // A negative angle next to 0 rounds up to the full turn; both zeros and all signs of 0 at the zenith are 0.
+        let phi = if turned >= std::f64::consts::TAU || (vector.x == 0.0 && vector.y == 0.0) { 0.0 } else { turned + 0.0 };
+        Self { theta: vector.x.hypot(vector.y).atan2(vector.z), phi }
+    }
+
     /// (θ, φ) in degrees.
     #[must_use]
     pub fn degrees(self) -> (f64, f64) {

@@ -1,5 +1,7 @@
 //! How stored values become radiance.
 
+use half::f16;
+
 use super::Direction;
 
 /// How stored values become linear light.
@@ -61,5 +63,20 @@ impl Encoding {
             Transfer::Gamma(gamma) => stored.abs().powf(gamma).copysign(stored),
             Transfer::Linear => stored,
         }
+    }
+}
+
+/// A measured value as the half that a sample stores: rounded to the nearest, but what is finite stays finite (at most 65504) and what is
+/// negative stays negative, since a negative half, an infinite one and NaN are no radiance.
+#[must_use]
+pub fn radiance_half(value: f64) -> f16 {
+    if !value.is_finite() {
+        return f16::from_f64(value);
+    }
+    let half = f16::from_f64(value.clamp(f64::from(f16::MIN), f64::from(f16::MAX)));
+    match half.to_f64() == 0.0 {
+        true if value < 0.0 => -f16::MIN_POSITIVE_SUBNORMAL,
+        true => f16::ZERO,
+        false => half,
     }
 }

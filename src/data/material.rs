@@ -26,11 +26,13 @@ pub enum FitStatus {
     NoSpecular = 2,
     /// Settled to rounding: no step, however short, lowers the objective any more in single precision.
     Stalled = 3,
+    /// Fewer valid samples than [`MIN_LOBE_SAMPLES`](crate::model::MIN_LOBE_SAMPLES): no lobe, ρ_s = 0.
+    TooFewSamples = 4,
 }
 
 impl FitStatus {
     /// All, in order of their codes.
-    pub const ALL: [Self; 4] = [Self::Running, Self::Converged, Self::NoSpecular, Self::Stalled];
+    pub const ALL: [Self; 5] = [Self::Running, Self::Converged, Self::NoSpecular, Self::Stalled, Self::TooFewSamples];
 
     /// From the code that kernels write; `None` for any other number.
     #[must_use]
@@ -42,14 +44,16 @@ impl FitStatus {
 /// Diagnostics of the Levenberg-Marquardt fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// Mean squared residual without any lobe, reflectance².
+    /// Mean squared residual of the valid samples without any lobe, reflectance².
     pub objective_without_lobe: Map<f32>,
-    /// Mean squared residual at the end, reflectance².
+    /// Mean squared residual of the valid samples at the end, reflectance².
     pub objective: Map<f32>,
     /// Steps tried.
     pub iterations: Map<u32>,
     /// How it ended, as [`FitStatus`] codes.
     pub status: Map<u32>,
+    /// Number of masked samples: measurements that were NaN, infinite or negative, which take no part in anything.
+    pub masked: Map<u32>,
 }
 
 /// Where a material came from.
@@ -140,6 +144,7 @@ impl Material {
                 objective: self.fit.objective.repeated(columns, rows),
                 iterations: self.fit.iterations.repeated(columns, rows),
                 status: self.fit.status.repeated(columns, rows),
+                masked: self.fit.masked.repeated(columns, rows),
             },
             provenance: self.provenance.clone(),
         }
@@ -162,6 +167,7 @@ impl Material {
             (self.fit.objective.width(), self.fit.objective.height()),
             (self.fit.iterations.width(), self.fit.iterations.height()),
             (self.fit.status.width(), self.fit.status.height()),
+            (self.fit.masked.width(), self.fit.masked.height()),
         ];
         match shapes.into_iter().find(|&shape| shape != (width, height)) {
             Some((w, h)) => Err(ShapeError { width, height, expected: width * height, found: w * h }),

@@ -14,7 +14,7 @@ mod samples;
 pub use block::Block;
 pub use btf::{Btf, BtfError, Pair};
 pub use direction::Direction;
-pub use encoding::{Encoding, RowOrder, Transfer};
+pub use encoding::{Encoding, RowOrder, Transfer, radiance_half};
 pub use grid::{Grid, GridError};
 pub use map::{Map, ShapeError};
 pub use material::{Fit, FitStatus, Material, Provenance, Svbrdf};

@@ -10,8 +10,13 @@ const COLOR: Convention = ("color", "linear RGB, sRGB primaries");
 const PIXEL: Convention =
     ("pixel", "pi L / E, E on a surface that faces the light: a white Lambertian surface that is lit from theta has cos theta");
 
+const REDUCED: Convention = (
+    "spectra",
+    "CIE 1931 under D65, a constant reflectance is gray; XYZ has the white of D65; where a colour lies outside sRGB, negatives become 0",
+);
+
 /// Conventions of a source.
-pub const SOURCE: &[Convention] = &[ROWS, AXES, ANGLES, PIXEL];
+pub const SOURCE: &[Convention] = &[ROWS, AXES, ANGLES, COLOR, REDUCED, PIXEL];
 
 /// Conventions of a dataset.
 pub const DATASET: &[Convention] = &[ROWS, AXES, ANGLES, COLOR, PIXEL];

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::data::{BtfError, Direction, ShapeError};
+use super::{BtfFileError, SelectionFault, lights::LightFault};
+use crate::data::{BtfError, Direction, ShapeError, Transfer};
 
 /// Everything that can go wrong with files. A `file` is a path, or an archive's path and the name inside it.
 #[derive(Debug, thiserror::Error)]
@@ -88,7 +89,7 @@ pub enum IoError {
     },
 
     /// A tree without images.
-    #[error("no images in {path}: expected .jpg, .png, .bmp or .tif files in it or its folders; name the folder or .zip that holds them", path = path.display())]
+    #[error("no images in {path}: expected .jpg, .png, .bmp, .tif, .exr or .hdr files in it or its folders; name the folder or .zip that holds them", path = path.display())]
     NoImages {
         /// The folder or archive.
         path: PathBuf,
@@ -96,7 +97,8 @@ pub enum IoError {
     /// A tree of images whose names hold no directions.
     #[error(
         "none of the {images} images in {path} is named by its directions: expected names such as \"tl015 pl060 tv030 pv090.jpg\" \
-         (θ and φ of light and view in degrees), found \"{first}\"; rename them",
+         (θ and φ of light and view in degrees), found \"{first}\"; rename them, or add the light file (lights.txt, light_directions.txt or \
+         an .lp)",
         path = path.display()
     )]
     NoDirections {
@@ -131,28 +133,11 @@ pub enum IoError {
         /// The other.
         second: String,
     },
-    /// Views and lights that are not a full product.
-    #[error(
-        "{path} is not complete: {views} views x {lights} lights need {expected} images, {missing} of them are missing: {first}; \
-         add them or remove the views or lights concerned{unnamed}",
-        expected = views * lights, path = path.display()
-    )]
-    Missing {
-        /// The folder or archive.
-        path: PathBuf,
-        /// Number of views.
-        views: usize,
-        /// Number of lights.
-        lights: usize,
-        /// Number of pairs without an image.
-        missing: usize,
-        /// The first of them.
-        first: String,
-        /// A remark on images without directions, or nothing.
-        unnamed: String,
-    },
     /// A known image format that is not read.
-    #[error("{file} is {found}; images of 8 bits a channel are read, as JPEG, PNG, BMP or TIFF: convert it")]
+    #[error(
+        "{file} is {found}; what is read is JPEG, PNG, BMP and TIFF of 8 or 16 bits, TIFF of floating-point numbers, Radiance HDR and OpenEXR: \
+         convert it"
+    )]
     Unsupported {
         /// The file.
         file: String,
@@ -160,7 +145,9 @@ pub enum IoError {
         found: String,
     },
     /// Something else than an image.
-    #[error("{file} is no image: expected JPEG, PNG, BMP or TIFF, found a file that starts with {found}; replace or remove it")]
+    #[error(
+        "{file} is no image: expected JPEG, PNG, BMP, TIFF, Radiance HDR or OpenEXR, found a file that starts with {found}; replace or remove it"
+    )]
     NotAnImage {
         /// The file.
         file: String,
@@ -205,9 +192,54 @@ pub enum IoError {
         /// Columns and rows of the tree's first image.
         expected: [usize; 2],
     },
+    /// OpenEXR with unknown channels.
+    #[error(
+        "{file} has the channels {found}; what is read is R G B, X Y Z, Y alone, or one channel for each wavelength, named in nm such as 450nm: rename them"
+    )]
+    Channels {
+        /// The file.
+        file: String,
+        /// Names of its channels.
+        found: String,
+    },
+    /// Images of a tree that become radiance in different ways.
+    #[error(
+        "{file} holds {} values, but the tree's first image {}; convert it, or say what all of them hold (--transfer)",
+        in_words(*found), in_words(*expected)
+    )]
+    OtherTransfer {
+        /// The file.
+        file: String,
+        /// What its format has.
+        found: Transfer,
+        /// What the format of the tree's first image has.
+        expected: Transfer,
+    },
+    /// A light file that cannot be used.
+    #[error("{file}: {fault}")]
+    Lights {
+        /// The light file.
+        file: String,
+        /// What is wrong.
+        fault: LightFault,
+    },
+    /// More than one light file.
+    #[error("{first} and {second} both list lights; name the .lp file that counts, or keep one in the folder")]
+    LightFiles {
+        /// One light file.
+        first: String,
+        /// Another.
+        second: String,
+    },
+    /// A part that a source does not have.
+    #[error(transparent)]
+    Selection(#[from] SelectionFault),
     /// A description that is no BTF.
     #[error(transparent)]
     Btf(#[from] BtfError),
+    /// A `.btf` container.
+    #[error(transparent)]
+    BtfFile(#[from] BtfFileError),
 
     /// A folder that holds no material.
     #[error("{path} is no overpaint material: {found}; name a folder written by `overpaint fit`", path = path.display())]
@@ -301,6 +333,14 @@ pub enum IoError {
         /// What the library found.
         message: String,
     },
+}
+
+fn in_words(transfer: Transfer) -> String {
+    match transfer {
+        Transfer::Srgb => "sRGB".to_owned(),
+        Transfer::Gamma(gamma) => format!("gamma {gamma}"),
+        Transfer::Linear => "linear".to_owned(),
+    }
 }
 
 /// What is wrong with an array of a material.

@@ -4,13 +4,18 @@
 //! not at all: it is made in a hidden folder beside its target and renamed into place.
 
 mod archive;
+mod btf_file;
 pub mod conventions;
 pub mod dataset;
 mod error;
 mod group;
+mod images;
+pub mod lights;
 pub mod material;
+mod names;
 pub mod picture;
 mod raster;
+mod selection;
 mod source;
 mod staging;
 mod tree;
@@ -19,8 +24,11 @@ mod unfinished;
 
 use std::path::Path;
 
+pub use btf_file::BtfFileError;
 pub use error::{ArrayFault, IoError};
-pub use source::{ReadOptions, Source, open, open_with, open_zip_bytes};
+pub use names::directions_in_name;
+pub use selection::SelectionFault;
+pub use source::{ReadOptions, Source, open, open_btf_bytes, open_with, open_zip_bytes};
 pub use staging::write;
 pub use tree_writer::{Lost, TreeFormat, TreeWriter};
 pub use unfinished::Unfinished;
@@ -30,13 +38,13 @@ pub use unfinished::Unfinished;
 pub enum Kind {
     /// A recovered material, which [`material::load`] reads.
     Material,
-    /// Images named by their directions, or a dataset, which [`open`] reads.
+    /// Images with directions in their names or in a light file, or a dataset, which [`open`] reads.
     Source,
     /// Neither; the error of [`open`] says why.
     Neither,
 }
 
-/// What `path` holds, judged by a material's attributes and by the names of images. No image is read.
+/// What `path` holds, judged by a material's attributes and by the names of files. No image is read.
 #[must_use]
 pub fn kind(path: &Path) -> Kind {
     if material::is_material(path) {

@@ -1,10 +1,10 @@
 //! Measured sources: where a BTF's samples come from.
 
-use std::{fmt::Debug, path::Path};
+use std::{fmt::Debug, path::Path, sync::Arc};
 
 use half::f16;
 
-use super::{IoError, archive::Archive, dataset, tree::ImageTree};
+use super::{IoError, archive::Archive, btf_file::BtfFile, dataset, lights, selection, tree};
 use crate::data::{Block, Btf, Encoding, Map, RowOrder, Transfer};
 
 /// A measured BTF whose samples are read from where they lie, from any number of threads at once. Nothing is cached: each call
@@ -60,9 +60,21 @@ pub struct ReadOptions {
     pub rows: Option<RowOrder>,
     /// Factor from linear values to reflectance units.
     pub scale: Option<f64>,
+    /// The only texels to be read.
+    pub region: Option<Block>,
+    /// Every how many directions one is read, of views and of lights; the view nearest to the zenith always is.
+    pub every: Option<usize>,
+    /// The largest θ of a view or light that is read, in degrees.
+    pub max_theta: Option<f64>,
 }
 
 impl ReadOptions {
+    /// Whether anything is said of how stored values become radiance.
+    fn states_encoding(&self) -> bool {
+        let &Self { transfer, includes_cosine, rows, scale, region: _, every: _, max_theta: _ } = self;
+        transfer.is_some() || includes_cosine.is_some() || rows.is_some() || scale.is_some()
+    }
+
     /// The encoding that a reader found, as far as the user does not know better.
     #[must_use]
     pub fn encoding(&self, found: Encoding) -> Encoding {
@@ -76,28 +88,47 @@ impl ReadOptions {
     }
 }
 
-/// Opens a dataset, or a folder or a .zip archive (without unpacking it) of images named by their directions. The name of the folder
-/// or archive names the BTF.
+/// Opens a dataset; a `.btf` container, which is known by its first bytes; or a folder or a .zip archive (without unpacking it) of images:
+/// named by their directions, else those of a light file (see [`lights`]). An `.lp` light file may be named itself. The name of the folder,
+/// archive or container names the BTF.
 ///
 /// # Errors
-/// [`IoError`] if there is nothing, no image or no directions, if a pair is missing or there twice, or if the first
-/// image cannot be read.
+/// [`IoError`] if there is nothing, no image or no directions, if a pair is there twice, if the first image cannot be read, or if a container's
+/// header is damaged or of an unknown kind.
 pub fn open(path: &Path) -> Result<Box<dyn Source>, IoError> {
     open_with(path, &ReadOptions::default())
 }
 
-/// As [`open`], where the user knows better than the reader.
+/// As [`open`], where the user knows better than the reader, or wants a part of it.
 ///
 /// # Errors
-/// As [`open`].
+/// As [`open`], or if nothing is left of it.
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
+    selection::select(open_whole(path, options)?, options)
+}
+
+fn open_whole(path: &Path, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
     if dataset::is_dataset(path) {
-        if *options != ReadOptions::default() {
+        if options.states_encoding() {
             return Err(IoError::AlreadyRadiance { path: path.to_owned() });
         }
         return dataset::open(path);
     }
-    Ok(Box::new(ImageTree::open(Archive::open(path)?, options)?))
+    if BtfFile::is_one(path) {
+        return Ok(Box::new(BtfFile::open(path, options)?));
+    }
+    if let Some((folder, name)) = light_file(path) {
+        return Ok(Box::new(lights::open(Archive::open(folder)?, Some(name), options)?));
+    }
+    open_images(Archive::open(path)?, options)
+}
+
+/// Opens a `.btf` container that is in memory. `name` names the BTF, and the file in errors.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_btf_bytes(name: &str, bytes: impl Into<Arc<[u8]>>, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
+    selection::select(Box::new(BtfFile::from_bytes(name, bytes.into(), options)?), options)
 }
 
 /// Opens a .zip archive that is in memory, as the sample embedded in the program is. `name` names the BTF.
@@ -105,10 +136,23 @@ pub fn open_with(path: &Path, options: &ReadOptions) -> Result<Box<dyn Source>, 
 /// # Errors
 /// As [`open`].
 pub fn open_zip_bytes(name: &str, bytes: &'static [u8]) -> Result<Box<dyn Source>, IoError> {
-    Ok(Box::new(ImageTree::open(Archive::from_bytes(name, bytes)?, &ReadOptions::default())?))
+    open_images(Archive::from_bytes(name, bytes)?, &ReadOptions::default())
 }
 
-/// Whether it is a dataset or there is at least one image named by its directions.
+fn open_images(archive: Archive, options: &ReadOptions) -> Result<Box<dyn Source>, IoError> {
+    let by_light_file = !tree::has_samples(&archive) && lights::has_lights(&archive);
+    Ok(Box::new(if by_light_file { lights::open(archive, None, options)? } else { tree::open(archive, options)? }))
+}
+
+/// Folder and name of a light file that may be named itself.
+fn light_file(path: &Path) -> Option<(&Path, &str)> {
+    let is_lp = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("lp")) && path.is_file();
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Some((folder, path.file_name()?.to_str()?)).filter(|_| is_lp)
+}
+
+/// Whether it is a dataset or a `.btf` container, or there are images and directions for them, judged by names.
 pub(super) fn is_source(path: &Path) -> bool {
-    dataset::is_dataset(path) || Archive::open(path).is_ok_and(|archive| ImageTree::has_samples(&archive))
+    let has_images = |archive| tree::has_samples(&archive) || lights::has_lights(&archive);
+    dataset::is_dataset(path) || BtfFile::has_signature(path) || light_file(path).is_some() || Archive::open(path).is_ok_and(has_images)
 }

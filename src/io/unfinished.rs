@@ -19,6 +19,7 @@ use super::IoError;
 pub struct Unfinished {
     folder: PathBuf,
     target: PathBuf,
+    is_resumed: bool,
     /// Held as long as the job runs.
     _lock: File,
 }
@@ -33,7 +34,7 @@ impl Unfinished {
     /// Begins the job of making `target`, or goes on with it. `job` is an object that holds all that its result depends on.
     ///
     /// # Errors
-    /// [`IoError::OtherJob`] if an unfinished job with another description stands there, [`IoError::Running`] if it is being worked on, and
+    /// [`IoError::OtherJob`] if an unfinished job with another description has finished parts there, [`IoError::Running`] if it is being worked on, and
     /// [`IoError`] if the system refuses to read or write.
     pub fn begin(target: &Path, job: &Value) -> Result<Self, IoError> {
         let name = target.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
@@ -46,15 +47,19 @@ impl Unfinished {
             Err(TryLockError::WouldBlock) => return Err(IoError::Running { target: target.to_owned() }),
             Err(TryLockError::Error(source)) => return Err(failed(source)),
         }
-        let unfinished = Self { folder, target: target.to_owned(), _lock: lock };
+        let mut unfinished = Self { folder, target: target.to_owned(), is_resumed: false, _lock: lock };
         match fs::read(unfinished.folder.join(JOB)) {
-            Ok(text) => unfinished.compare(job, &text)?,
+            Ok(text) => {
+                unfinished.compare(job, &text)?;
+                unfinished.is_resumed = true;
+            }
             Err(error) if error.kind() == ErrorKind::NotFound => unfinished.start(job)?,
             Err(source) => return Err(IoError::Read { file: unfinished.folder.join(JOB).display().to_string(), source }),
         }
         // Completed and then taken away: the job is to be done anew.
         if unfinished.is_complete() && !unfinished.result().exists() && !target.exists() {
             unfinished.start(job)?;
+            unfinished.is_resumed = false;
         }
         Ok(unfinished)
     }
@@ -68,6 +73,10 @@ impl Unfinished {
         let found: Value = serde_json::from_slice(text).unwrap_or(Value::Null);
         if found == *job {
             return Ok(());
+        }
+        // A job that ended before it had finished anything is nobody's loss.
+        if self.names()?.is_empty() && !self.result().exists() {
+            return self.start(job);
         }
         let keys = job.as_object().into_iter().flat_map(|object| object.keys());
         let differing: Vec<&str> = keys.filter(|key| job[key.as_str()] != found[key.as_str()]).map(String::as_str).collect();
@@ -110,6 +119,12 @@ impl Unfinished {
         }
         names.sort_unstable();
         Ok(names)
+    }
+
+    /// Whether an earlier run has begun the job.
+    #[must_use]
+    pub fn is_resumed(&self) -> bool {
+        self.is_resumed
     }
 
     /// Where a result that is a folder of its own is made.

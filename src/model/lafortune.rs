@@ -1,5 +1,9 @@
 //! The Lafortune lobe.
 
+/// Fewest valid samples of a texel that a lobe is fitted to: C, n and ρ_d are five numbers, and a lobe through hardly more samples than
+/// that follows their noise.
+pub const MIN_LOBE_SAMPLES: u32 = 8;
+
 /// (C·(ω_i ω_o))^n for `lobe` = (C_x, C_y, C_z, n) and the directions' `product` by components; 0 where the base is not
 /// positive (Lafortune et al. 1997; thesis eq. 3.3).
 #[must_use]

@@ -1,10 +1,12 @@
 //! A source in, a material out.
 
-use super::{Memory, PipelineError, Progress, geometry, reflectance};
+use serde_json::{Value, json};
+
+use super::{Memory, PipelineError, Progress, geometry, reflectance, tiles::Job};
 use crate::{
     data::{Material, Provenance},
     gpu::Gpu,
-    io::Source,
+    io::{Source, Unfinished},
     model::FitSettings,
 };
 
@@ -13,23 +15,23 @@ use crate::{
 /// # Errors
 /// [`PipelineError`] if the source cannot be read, has too few lights, a setting is out of range, or the adapter fails.
 pub fn fit(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Progress) -> Result<Material, PipelineError> {
-    fit_within(gpu, source, settings, Memory::default(), progress)
+    fit_within(gpu, source, settings, Memory::default(), None, progress)
 }
 
 /// Recovers height, normals and per-texel reflectance of a source.
 ///
-/// Works in tiles sized from the adapter's limits and `memory`; the result does not depend on them. Images are decoded once for as many
-/// tiles as the host holds, those of the zenith view once more.
+/// Works in tiles sized from the adapter's limits and `memory`, and reads ahead of the adapter; the result does not depend on them. With
+/// `unfinished`, begun with [`fit_job`], finished tiles are kept there as they come, and those that an earlier run kept are not done again.
 ///
 /// # Errors
-/// [`PipelineError`] if the source cannot be read, has too few lights, or the adapter fails.
+/// [`PipelineError`] if the source cannot be read, has too few lights, a setting is out of range, a tile cannot be kept, or the adapter fails.
 pub fn fit_within(
-    gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, progress: &Progress,
+    gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, unfinished: Option<&Unfinished>, progress: &Progress,
 ) -> Result<Material, PipelineError> {
     settings.checked()?;
-    let geometry = geometry::recover(gpu, source, settings, memory, progress)?;
-    let (svbrdf, fit) = reflectance::recover(gpu, source, settings, memory, progress)?;
-    let btf = source.btf();
+    let job = Job { gpu, source, memory, unfinished, progress };
+    let geometry = geometry::recover(&job, settings)?;
+    let (svbrdf, fit) = reflectance::recover(&job, settings)?;
     let material = Material {
         height: geometry.height,
         normal: geometry.normal,
@@ -37,17 +39,33 @@ pub fn fit_within(
         albedo: geometry.albedo,
         svbrdf,
         fit,
-        provenance: Provenance {
-            source: btf.name().to_owned(),
-            views: btf.views().to_vec(),
-            lights: btf.lights().to_vec(),
-            samples: btf.pairs().len(),
-            grid: btf.grid().map(str::to_owned),
-            encoding: *btf.encoding(),
-            adapter: gpu.adapter().name.clone(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            settings: *settings,
-        },
+        provenance: provenance(gpu, source, settings),
     };
     Ok(material.checked()?)
+}
+
+/// All that the result of a fit depends on, for [`Unfinished::begin`].
+#[must_use]
+pub fn fit_job(gpu: &Gpu, source: &dyn Source, settings: &FitSettings) -> Value {
+    json!({
+        "job": "fit",
+        "files of the source": source.fingerprint(),
+        "size": source.btf().size(),
+        "source, settings, adapter and version": provenance(gpu, source, settings),
+    })
+}
+
+fn provenance(gpu: &Gpu, source: &dyn Source, settings: &FitSettings) -> Provenance {
+    let btf = source.btf();
+    Provenance {
+        source: btf.name().to_owned(),
+        views: btf.views().to_vec(),
+        lights: btf.lights().to_vec(),
+        samples: btf.pairs().len(),
+        grid: btf.grid().map(str::to_owned),
+        encoding: *btf.encoding(),
+        adapter: gpu.adapter().name.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        settings: *settings,
+    }
 }

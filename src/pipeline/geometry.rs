@@ -1,13 +1,11 @@
 //! Height and normals of a source: photometric stereo of the zenith view, then integration (thesis section 3.1).
 
 use super::{
-    PipelineError, Progress,
-    tiles::{Memory, for_each_tile, octets, run},
+    PipelineError,
+    tiles::{Job, run},
 };
 use crate::{
     data::{Direction, Map},
-    gpu::Gpu,
-    io::Source,
     model::FitSettings,
     stage,
 };
@@ -24,20 +22,17 @@ pub(super) struct Geometry {
     pub albedo: Map<f32>,
 }
 
-pub(super) fn recover(
-    gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, progress: &Progress,
-) -> Result<Geometry, PipelineError> {
+pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<Geometry, PipelineError> {
+    let Job { gpu, source, progress, .. } = *job;
     let btf = source.btf();
     let samples = btf.zenith_samples();
     let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
     let stereo = stage::PhotometricStereo::new(gpu)?;
-    let mut measured: Vec<[f32; 4]> = Vec::with_capacity(btf.texels());
-    for_each_tile(gpu, source, &samples, memory, progress, |texels, halves| {
-        let size = [texels.len(), samples.len()];
-        let tile = octets(gpu, halves, samples.len(), texels.len())?;
-        let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights))?;
-        measured.extend(normals.read(gpu)?);
-        Ok(())
+    let measured: Vec<[f32; 4]> = job.for_each_tile("normals", &samples, |gathered| {
+        let tile = gathered.tile;
+        let size = [tile.texels, tile.samples];
+        let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights, settings.stereo))?;
+        Ok(normals.read(gpu)?)
     })?;
 
     let [width, height] = btf.size();

@@ -1,11 +1,9 @@
 //! A source in, a dataset out: one pass over what the source stores, in bounded memory, resumable chunk by chunk.
 
-use std::{
-    path::Path,
-    sync::atomic::{AtomicUsize, Ordering},
-};
+use std::path::Path;
 
 use half::f16;
+use rayon::prelude::*;
 
 use super::{Memory, PipelineError, Progress};
 use crate::{
@@ -39,7 +37,7 @@ pub fn import(source: &dyn Source, target: &Path, memory: Memory, progress: &Pro
     let of_view: Vec<Vec<usize>> =
         (0..views).map(|view| samples.iter().copied().filter(|&sample| btf.pairs()[sample].view == view).collect()).collect();
     let tiles: Vec<Block> = writer.tiles().collect();
-    let (kept, invalid) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let (mut kept, mut invalid) = (0, 0);
     progress.expect(views * tiles.len());
 
     // The views and tiles that are read at once.
@@ -54,15 +52,15 @@ pub fn import(source: &dyn Source, target: &Path, memory: Memory, progress: &Pro
     let mut radiance = Vec::new();
     for (views, tiles) in groups {
         let stage = progress.stage("check", 0, 0);
-        let missing: Vec<(usize, Vec<Block>)> = views
-            .into_iter()
-            .map(|view| (view, tiles.iter().copied().filter(|&tile| !writer.has(view, tile)).collect::<Vec<_>>()))
-            .inspect(|(_, missing)| {
-                kept.fetch_add(tiles.len() - missing.len(), Ordering::Relaxed);
-                progress.advance(tiles.len() - missing.len());
-            })
-            .filter(|(_, missing)| !missing.is_empty())
-            .collect();
+        let mut missing: Vec<(usize, Vec<Block>)> = Vec::new();
+        for view in views {
+            let of_view: Vec<Block> = tiles.par_iter().copied().filter(|&tile| !writer.has(view, tile)).collect();
+            kept += tiles.len() - of_view.len();
+            progress.advance(tiles.len() - of_view.len());
+            if !of_view.is_empty() {
+                missing.push((view, of_view));
+            }
+        }
         drop(stage);
         if missing.is_empty() {
             continue;
@@ -75,7 +73,7 @@ pub fn import(source: &dyn Source, target: &Path, memory: Memory, progress: &Pro
         source.read(&samples, block, &mut radiance, &|_| {})?;
         drop(stage);
         let _stage = progress.stage("write", block.texels(), samples.len());
-        invalid.fetch_add(radiance.iter().filter(|value| is_invalid(**value)).count(), Ordering::Relaxed);
+        invalid += radiance.par_iter().filter(|value| is_invalid(**value)).count();
         let mut rest = radiance.as_slice();
         for (view, tiles) in missing {
             let (of_view, after) = rest.split_at(of_view[view].len() * 3 * block.texels());
@@ -85,7 +83,7 @@ pub fn import(source: &dyn Source, target: &Path, memory: Memory, progress: &Pro
         }
     }
     writer.finish()?;
-    Ok(Imported { chunks: views * tiles.len(), kept: kept.into_inner(), invalid: invalid.into_inner() })
+    Ok(Imported { chunks: views * tiles.len(), kept, invalid })
 }
 
 /// Rows of tiles, as many in a band as the host may hold of one view.

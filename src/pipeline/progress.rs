@@ -33,7 +33,7 @@ impl Observer for Silent {}
 /// A job's progress and the times of its stages.
 #[derive(Debug)]
 pub struct Progress {
-    adapter: AdapterSummary,
+    adapter: Option<AdapterSummary>,
     start: Instant,
     observer: Box<dyn Observer>,
     rows: Mutex<Vec<Row>>,
@@ -61,7 +61,13 @@ impl Progress {
     /// Times the stages of a job on `adapter` and keeps `observer` informed.
     #[must_use]
     pub fn observed(adapter: &AdapterSummary, observer: Box<dyn Observer>) -> Self {
-        Self { adapter: adapter.clone(), start: Instant::now(), observer, rows: Mutex::new(Vec::new()) }
+        Self { adapter: Some(adapter.clone()), ..Self::on_host(observer) }
+    }
+
+    /// Times the stages of a job that needs no adapter and keeps `observer` informed.
+    #[must_use]
+    pub fn on_host(observer: Box<dyn Observer>) -> Self {
+        Self { adapter: None, start: Instant::now(), observer, rows: Mutex::new(Vec::new()) }
     }
 
     /// Enters stage `name` for `texels` texels with `samples` samples each (0 where it reads no samples); the stage
@@ -158,8 +164,8 @@ pub struct StageTime {
 /// The stages of a job with their times.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StageTable {
-    /// The adapter of the job: a time means nothing without it.
-    pub adapter: AdapterSummary,
+    /// The adapter of the job, if it has one: a time means nothing without it.
+    pub adapter: Option<AdapterSummary>,
     /// Seconds since the job began.
     pub wall_seconds: f64,
     /// The stages, in the order in which they were first entered.
@@ -177,7 +183,7 @@ impl StageTable {
     /// Where `stage` ran: the adapter's name, or "host".
     #[must_use]
     pub fn place(&self, stage: &StageTime) -> &str {
-        if stage.on_adapter { &self.adapter.name } else { "host" }
+        self.adapter.as_ref().filter(|_| stage.on_adapter).map_or("host", |adapter| &adapter.name)
     }
 }
 

@@ -1,21 +1,20 @@
 //! Per-texel reflectance of a source, tile by tile (thesis section 3.2.2, flat surfaces).
 
+use bytemuck::{Pod, Zeroable};
+
 use super::{
-    PipelineError, Progress,
-    tiles::{Memory, for_each_tile, octets, run},
+    PipelineError,
+    tiles::{Job, run},
 };
 use crate::{
     data::{Fit, Map, Samples, Svbrdf},
-    gpu::Gpu,
-    io::Source,
     model::FitSettings,
     stage,
 };
 
 /// ρ_d, ρ_s and lobe of every texel, and how the fit went.
-pub(super) fn recover(
-    gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, progress: &Progress,
-) -> Result<(Svbrdf, Fit), PipelineError> {
+pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<(Svbrdf, Fit), PipelineError> {
+    let Job { gpu, source, progress, .. } = *job;
     let btf = source.btf();
     let lit: Vec<usize> = (0..btf.pairs().len()).filter(|&sample| btf.directions(sample).1.theta.cos() >= settings.min_cos_light).collect();
     if lit.is_empty() {
@@ -32,11 +31,10 @@ pub(super) fn recover(
     let lafortune_fit = stage::LafortuneFit::new(gpu)?;
     let specular_scale = stage::SpecularScale::new(gpu)?;
 
-    let mut found = Found::default();
-    for_each_tile(gpu, source, &lit, memory, progress, |texels, halves| {
-        let texels = texels.len();
+    let texels = job.for_each_tile("reflectance", &lit, |gathered| {
+        let (radiance, masked) = (gathered.tile, gathered.masked.read(gpu)?);
+        let texels = masked.len();
         let size = [texels, samples.len()];
-        let radiance = octets(gpu, halves, samples.len(), texels)?;
         let reflectance = run(gpu, progress, "brdf_values", size, |recorder| brdf_values.record(recorder, &radiance, &samples))?;
         drop(radiance);
         let diffuse =
@@ -48,42 +46,44 @@ pub(super) fn recover(
         let specular = run(gpu, progress, "specular_scale", size, |recorder| {
             specular_scale.record(recorder, &reflectance, &samples, &diffuse, &fitted.lobes, settings)
         })?;
-        found.diffuse.extend(diffuse.read(gpu)?);
-        found.specular.extend(specular.read(gpu)?);
-        found.lobes.extend(fitted.lobes.read(gpu)?);
-        found.objectives.extend(fitted.objectives.read(gpu)?);
-        found.outcomes.extend(fitted.outcomes.read(gpu)?);
-        Ok(())
+        let (diffuse, specular, lobes) = (diffuse.read(gpu)?, specular.read(gpu)?, fitted.lobes.read(gpu)?);
+        let (objectives, outcomes) = (fitted.objectives.read(gpu)?, fitted.outcomes.read(gpu)?);
+        let texel = |texel: usize| Texel {
+            diffuse: diffuse[texel],
+            specular: specular[texel],
+            lobe: lobes[texel],
+            objectives: objectives[texel],
+            outcome: outcomes[texel],
+            masked: masked[texel],
+        };
+        Ok((0..texels).map(texel).collect())
     })?;
-    found.into_maps(btf.size())
+    let [width, height] = btf.size();
+    let texels = Map::new(width, height, texels)?;
+    let rgb = |[r, g, b, _]: [f32; 4]| [r, g, b];
+    let svbrdf = Svbrdf {
+        diffuse: texels.map(|texel| rgb(texel.diffuse)),
+        specular: texels.map(|texel| rgb(texel.specular)),
+        lobe: texels.map(|texel| texel.lobe),
+    };
+    let fit = Fit {
+        objective_without_lobe: texels.map(|texel| texel.objectives[0]),
+        objective: texels.map(|texel| texel.objectives[1]),
+        iterations: texels.map(|texel| texel.outcome[1]),
+        status: texels.map(|texel| texel.outcome[0]),
+        masked: texels.map(|texel| texel.masked),
+    };
+    Ok((svbrdf, fit))
 }
 
-/// Results of the tiles so far, in the order of texels.
-#[derive(Default)]
-struct Found {
-    diffuse: Vec<[f32; 4]>,
-    specular: Vec<[f32; 4]>,
-    lobes: Vec<[f32; 4]>,
-    objectives: Vec<[f32; 2]>,
-    outcomes: Vec<[u32; 2]>,
-}
-
-impl Found {
-    fn into_maps(self, [width, height]: [usize; 2]) -> Result<(Svbrdf, Fit), PipelineError> {
-        let rgb = |&[r, g, b, _]: &[f32; 4]| [r, g, b];
-        let objectives = Map::new(width, height, self.objectives)?;
-        let outcomes = Map::new(width, height, self.outcomes)?;
-        let svbrdf = Svbrdf {
-            diffuse: Map::new(width, height, self.diffuse)?.map(rgb),
-            specular: Map::new(width, height, self.specular)?.map(rgb),
-            lobe: Map::new(width, height, self.lobes)?,
-        };
-        let fit = Fit {
-            objective_without_lobe: objectives.map(|[start, _]| *start),
-            objective: objectives.map(|[_, end]| *end),
-            iterations: outcomes.map(|[_, iterations]| *iterations),
-            status: outcomes.map(|[status, _]| *status),
-        };
-        Ok((svbrdf, fit))
-    }
+/// What is found for a texel.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Texel {
+    diffuse: [f32; 4],
+    specular: [f32; 4],
+    lobe: [f32; 4],
+    objectives: [f32; 2],
+    outcome: [u32; 2],
+    masked: u32,
 }

@@ -141,8 +141,10 @@ impl<'f> Report<'f> {
     }
 
     fn stages(&mut self, stages: &StageTable) {
-        let adapter = &stages.adapter;
-        let named = escape(&format!("{} ({}, {}, {})", adapter.name, adapter.kind, adapter.backend, adapter.driver));
+        let named = stages.adapter.as_ref().map_or_else(
+            || "none".to_owned(),
+            |adapter| escape(&format!("{} ({}, {}, {})", adapter.name, adapter.kind, adapter.backend, adapter.driver)),
+        );
         let html = &mut self.html;
         html.push_str(
             "<h2>Stages</h2>\n<figure>\n<table class=\"stages\">\n<thead><tr><th>stage</th><th>wall s</th><th>share</th><th>adapter s</th>",

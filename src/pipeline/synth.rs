@@ -109,6 +109,7 @@ impl<'g> Synthetic<'g> {
             fit: Fit {
                 objective_without_lobe: self.heights.map(|_| 0.0),
                 objective: self.heights.map(|_| 0.0),
+                masked: self.heights.map(|_| 0),
                 iterations: self.heights.map(|_| 0),
                 status: self.svbrdf.specular.map(|specular| status(specular) as u32),
             },

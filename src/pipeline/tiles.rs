@@ -1,76 +1,203 @@
-//! Cutting a source into tiles that fit the adapter and bands that fit the host, and running stages on them.
+//! Cutting a source into blocks that the host holds and tiles that the adapter works on, and running stages on them.
+//!
+//! While the adapter works on the tiles of one block, another thread reads the next. A texel's result does not depend on the tile it comes
+//! in, so finished tiles are kept under the texels they cover: a run that was killed takes them up again with whatever memory it has then.
 
-use std::ops::Range;
+use std::{ops::Range, sync::mpsc, thread};
 
+use bytemuck::Pod;
 use half::f16;
 
-use super::{PipelineError, Progress};
+use super::{Memory, PipelineError, Progress};
 use crate::{
     data::{Block, OCTET},
     gpu::{Gpu, Recorder},
-    io::Source,
-    stage::{LafortuneFit, Tile},
+    io::{Source, Unfinished},
+    stage::{Gather, Gathered, LafortuneFit},
 };
 
-/// What may be held at once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Memory {
-    /// Bytes of decoded images on the host.
-    pub host: usize,
-    /// Bytes of the largest array of a tile on the adapter. An adapter's own limit holds as well.
-    pub adapter: u64,
+/// Bytes that a texel's samples take on the adapter at most, in units of the halves of its three channels: as they are uploaded, the copy
+/// that the driver makes of them, and radiance; later radiance, reflectance and its residual, which are fewer.
+const COPIES: usize = 3;
+
+/// Tiles beyond this gain nothing, and progress is seen and kept less often.
+const MAX_TILE_TEXELS: usize = 1 << 14;
+
+/// What is common to all tiles of a job.
+#[derive(Clone, Copy)]
+pub(super) struct Job<'a> {
+    pub gpu: &'a Gpu,
+    pub source: &'a dyn Source,
+    pub memory: Memory,
+    /// Where finished tiles are kept, if anywhere.
+    pub unfinished: Option<&'a Unfinished>,
+    pub progress: &'a Progress,
 }
 
-impl Default for Memory {
-    /// 1 GiB, and arrays of 256 MiB: larger tiles gain nothing.
-    fn default() -> Self {
-        Self { host: 1 << 30, adapter: 256 << 20 }
+impl Job<'_> {
+    /// Texels of a tile with `samples` samples.
+    fn tile_texels(&self, samples: usize) -> usize {
+        let halves = 3 * samples.next_multiple_of(OCTET) * size_of::<f16>();
+        let array = halves.max(LafortuneFit::STATE_BYTES) as u64;
+        let all = (COPIES * halves + LafortuneFit::STATE_BYTES) as u64;
+        let texels = (self.gpu.max_array_bytes() / array).min(self.memory.adapter / all);
+        usize::try_from(texels).unwrap_or(usize::MAX).clamp(1, MAX_TILE_TEXELS)
+    }
+
+    /// Blocks of which the host holds two: one being read, one being worked on.
+    fn blocks(&self, samples: usize) -> Vec<Block> {
+        let size @ [width, height] = self.source.btf().size();
+        let texels = (self.memory.host / 2 / (samples * 3 * size_of::<f16>())).max(1);
+        let [columns, rows] = match self.source.chunk() {
+            // Pictures cost as much for a part as for the whole: bands as high as can be.
+            None if texels >= width => [width, texels / width],
+            None => [texels, 1],
+            // Whole chunks, side by side as far as they go.
+            Some([columns, rows]) if texels >= columns * rows => [texels / (columns * rows) * columns, rows],
+            // Less than a chunk: it is read once for each of its rows.
+            Some([columns, _]) if texels >= columns => [columns, texels / columns],
+            Some(_) => [texels, 1],
+        };
+        Block::tiles(size, [columns.min(width), rows.min(height)]).collect()
+    }
+
+    /// What `work` finds for the texels of each tile of the source, `[texel of the plane]`. `work` is given a tile with the given samples.
+    /// `what` names the result among those kept.
+    pub(super) fn for_each_tile<T: Pod>(
+        &self, what: &str, samples: &[usize], mut work: impl FnMut(Gathered) -> Result<Vec<T>, PipelineError>,
+    ) -> Result<Vec<T>, PipelineError> {
+        let Self { gpu, source, progress, .. } = *self;
+        let gather = Gather::new(gpu)?;
+        let mut found = Found::<T>::new(source.btf().size());
+        found.take_up(what, self.unfinished)?;
+        let tile_texels = self.tile_texels(samples.len());
+        let left: Vec<(Block, Vec<Range<usize>>)> = self
+            .blocks(samples.len())
+            .into_iter()
+            .map(|block| (block, ranges(block.texels(), tile_texels).filter(|range| !found.has(block, range)).collect::<Vec<_>>()))
+            .filter(|(_, ranges)| !ranges.is_empty())
+            .collect();
+        let units = |texels: usize| texels * samples.len();
+        progress.expect(left.iter().map(|(block, _)| 2 * units(block.texels())).sum());
+
+        thread::scope(|scope| {
+            // A block waits here until the one before is done with; while it is, the next one is read.
+            let (send, receive) = mpsc::sync_channel(0);
+            let blocks: Vec<Block> = left.iter().map(|(block, _)| *block).collect();
+            scope.spawn(move || {
+                for block in blocks {
+                    let mut words = vec![0_u32; (samples.len() * 3 * block.texels()).div_ceil(2)];
+                    let halves = &mut bytemuck::cast_slice_mut(&mut words)[..samples.len() * 3 * block.texels()];
+                    let stage = progress.stage("read", block.texels(), samples.len());
+                    let read = source.read(samples, block, halves, &|samples| progress.advance(samples * block.texels()));
+                    drop(stage);
+                    let failed = read.is_err();
+                    // Nobody receives any more if the work has failed.
+                    if send.send(read.map(|()| words)).is_err() || failed {
+                        return;
+                    }
+                }
+            });
+            for (block, ranges) in left {
+                let Ok(words) = receive.recv() else { break };
+                let words = words?;
+                let halves: &[f16] = bytemuck::cast_slice(&words);
+                let mut skipped = block.texels();
+                for range in ranges {
+                    skipped -= range.len();
+                    let gathered = run(gpu, progress, "gather", [range.len(), samples.len()], |recorder| {
+                        let part = part(&halves[..samples.len() * 3 * block.texels()], block.texels(), range.clone());
+                        let halves = gpu.upload("halves", part.as_deref().unwrap_or(&words))?;
+                        gather.record(recorder, &halves, samples.len(), range.len())
+                    })?;
+                    let texels = work(gathered)?;
+                    if let Some(unfinished) = self.unfinished {
+                        unfinished.put(&name(what, block, &range), bytemuck::cast_slice(&texels))?;
+                    }
+                    found.put(block, &range, &texels);
+                    progress.advance(units(range.len()));
+                }
+                progress.advance(units(skipped));
+            }
+            Ok(found.values)
+        })
     }
 }
 
-/// Texels of a tile with `samples` samples, so that its largest array fits: the halves `[channel][octet][texel]`, or with few
-/// samples what a stage keeps of each texel.
-fn tile_texels(gpu: &Gpu, memory: Memory, samples: usize) -> usize {
-    let halves = 3 * samples.next_multiple_of(OCTET) * size_of::<f16>();
-    let texel = halves.max(LafortuneFit::STATE_BYTES) as u64;
-    usize::try_from(gpu.max_array_bytes().min(memory.adapter) / texel).unwrap_or(usize::MAX).max(1)
+/// `0..texels` in pieces of at most `length`.
+fn ranges(texels: usize, length: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..texels).step_by(length).map(move |start| start..(start + length).min(texels))
 }
 
-/// Calls `tile(texels, halves)` for each tile of the source, with the radiance `[sample][channel][texel]` of the given samples.
-pub(super) fn for_each_tile(
-    gpu: &Gpu, source: &dyn Source, samples: &[usize], memory: Memory, progress: &Progress,
-    mut tile: impl FnMut(Range<usize>, &[f16]) -> Result<(), PipelineError>,
-) -> Result<(), PipelineError> {
-    let btf = source.btf();
-    let [width, height] = btf.size();
-    let texels = btf.texels();
-    let tile_texels = tile_texels(gpu, memory, samples.len()).min(texels);
-    let rows = (memory.host / (samples.len() * width * 6)).clamp(1, height);
-    progress.expect(height.div_ceil(rows) * samples.len());
-    for row in (0..height).step_by(rows) {
-        let block = Block { column: 0, row, width, height: rows.min(height - row) };
-        let mut radiance = vec![f16::ZERO; samples.len() * 3 * block.texels()];
-        let stage = progress.stage("read", block.texels(), samples.len());
-        source.read(samples, block, &mut radiance, &|samples| progress.advance(samples))?;
-        drop(stage);
-        for start in (0..block.texels()).step_by(tile_texels) {
-            let inside = start..(start + tile_texels).min(block.texels());
-            let part: Vec<f16> = radiance.chunks_exact(block.texels()).flat_map(|row| &row[inside.clone()]).copied().collect();
-            tile(row * width + inside.start..row * width + inside.end, &part)?;
+/// The values `[plane][texel of the range]` out of `[plane][texel of the block]`, two a word; none if it is all of them.
+fn part(halves: &[f16], texels: usize, range: Range<usize>) -> Option<Vec<u32>> {
+    if range.len() == texels {
+        return None;
+    }
+    let planes = halves.len() / texels;
+    let mut words = vec![0_u32; (planes * range.len()).div_ceil(2)];
+    let part: &mut [f16] = bytemuck::cast_slice_mut(&mut words);
+    for (part, plane) in part.chunks_exact_mut(range.len()).zip(halves.chunks_exact(texels)) {
+        part.copy_from_slice(&plane[range.clone()]);
+    }
+    Some(words)
+}
+
+/// The name under which a tile's result is kept.
+fn name(what: &str, block: Block, range: &Range<usize>) -> String {
+    let Block { column, row, width, height } = block;
+    format!("{what} {column} {row} {width} {height} {} {}", range.start, range.end)
+}
+
+/// The texels that a name of kept results stands for, if it is one of `what`.
+fn named(what: &str, name: &str, size: [usize; 2]) -> Option<(Block, Range<usize>)> {
+    let numbers: Vec<usize> = name.strip_prefix(what)?.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
+    let [column, row, width, height, start, end] = numbers.try_into().ok()?;
+    let block = Block { column, row, width, height };
+    (block.is_within(size) && start < end && end <= block.texels()).then_some((block, start..end))
+}
+
+/// Results over the texel plane so far.
+struct Found<T> {
+    size: [usize; 2],
+    values: Vec<T>,
+    is_there: Vec<bool>,
+}
+
+impl<T: Pod> Found<T> {
+    fn new(size: [usize; 2]) -> Self {
+        let texels = size[0] * size[1];
+        Self { size, values: vec![T::zeroed(); texels], is_there: vec![false; texels] }
+    }
+
+    /// Takes up what an earlier run has kept of `what`.
+    fn take_up(&mut self, what: &str, unfinished: Option<&Unfinished>) -> Result<(), PipelineError> {
+        let Some(unfinished) = unfinished else { return Ok(()) };
+        for name in unfinished.names()? {
+            let Some((block, range)) = named(what, &name, self.size) else { continue };
+            let bytes = unfinished.get(&name).filter(|bytes| bytes.len() == range.len() * size_of::<T>());
+            if let Some(bytes) = bytes {
+                self.put(block, &range, &bytemuck::allocation::pod_collect_to_vec::<u8, T>(&bytes));
+            }
+        }
+        Ok(())
+    }
+
+    fn put(&mut self, block: Block, range: &Range<usize>, texels: &[T]) {
+        for (texel, value) in range.clone().zip(texels) {
+            let at = self.at(block, texel);
+            self.values[at] = *value;
+            self.is_there[at] = true;
         }
     }
-    Ok(())
-}
 
-/// Octets of radiance `[sample][channel][texel]`.
-pub(super) fn octets(gpu: &Gpu, radiance: &[f16], samples: usize, texels: usize) -> Result<Tile, PipelineError> {
-    let octets = samples.div_ceil(OCTET);
-    let mut values = vec![[f16::ZERO; OCTET]; 3 * octets * texels];
-    for (index, &half) in radiance.iter().enumerate() {
-        let (texel, channel, sample) = (index % texels, index / texels % 3, index / texels / 3);
-        values[(channel * octets + sample / OCTET) * texels + texel][sample % OCTET] = half;
+    fn has(&self, block: Block, range: &Range<usize>) -> bool {
+        range.clone().all(|texel| self.is_there[self.at(block, texel)])
     }
-    Ok(Tile { values: gpu.upload("radiance", &values)?, texels, samples })
+
+    fn at(&self, block: Block, texel: usize) -> usize {
+        (block.row + texel / block.width) * self.size[0] + block.column + texel % block.width
+    }
 }
 
 /// Records a stage, runs it and notes its time.

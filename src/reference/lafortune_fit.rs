@@ -4,24 +4,30 @@ use glam::{DMat4, DVec4};
 
 use crate::{
     data::Samples,
-    model::{FitSettings, lafortune},
+    model::{FitSettings, MIN_LOBE_SAMPLES, lafortune},
 };
 
 /// A lobe and how well it fits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LafortuneFit {
-    /// (C_x, C_y, C_z, n).
+    /// (C_x, C_y, C_z, n); C = 0 and n = 1 with too few valid samples.
     pub lobe: [f64; 4],
     /// Mean squared residual, reflectance².
     pub objective: f64,
 }
 
-/// Mean squared difference of the lobe and the mean specular residuals `s`, one a sample.
+/// Product of the directions and residual of each sample that is not masked (negative).
+fn valid<'a>(s: &'a [f64], samples: &'a Samples) -> impl Iterator<Item = ([f64; 3], f64)> + 'a {
+    samples.products().zip(s.iter().copied()).filter(|(_, s)| *s >= 0.0)
+}
+
+/// Mean squared difference of the lobe and the mean specular residuals `s`, one a sample and negative where masked; 0 without a valid
+/// one.
 #[must_use]
 pub fn lafortune_objective(lobe: [f64; 4], s: &[f64], samples: &Samples) -> f64 {
-    let sum: f64 = samples.products().zip(s).map(|(product, s)| (lafortune(lobe, product) - s).powi(2)).sum();
+    let sum: f64 = valid(s, samples).map(|(product, s)| (lafortune(lobe, product) - s).powi(2)).sum();
     #[expect(clippy::cast_precision_loss, reason = "samples are counted in thousands")]
-    let count = s.len().max(1) as f64;
+    let count = valid(s, samples).count().max(1) as f64;
     sum / count
 }
 
@@ -39,13 +45,17 @@ pub fn lafortune_gradient(lobe: [f64; 4], product: [f64; 3]) -> [f64; 4] {
 /// Descends from `start` (Levenberg 1944, Marquardt 1963), the exponent held to the bounds of `settings`.
 #[must_use]
 pub fn lafortune_fit(start: [f64; 4], s: &[f64], samples: &Samples, settings: &FitSettings) -> LafortuneFit {
+    if valid(s, samples).count() < MIN_LOBE_SAMPLES as usize {
+        let lobe = [0.0, 0.0, 0.0, 1.0];
+        return LafortuneFit { lobe, objective: lafortune_objective(lobe, s, samples) };
+    }
     let [least, greatest] = settings.exponents;
     let mut lobe = start;
     let mut objective = lafortune_objective(lobe, s, samples);
     let mut damping = 1e-3;
     for _ in 0..1000 {
         let (mut curvature, mut gradient) = (DMat4::ZERO, DVec4::ZERO);
-        for (product, s) in samples.products().zip(s) {
+        for (product, s) in valid(s, samples) {
             let row = DVec4::from_array(lafortune_gradient(lobe, product));
             curvature += DMat4::from_cols(row * row.x, row * row.y, row * row.z, row * row.w);
             gradient += row * (lafortune(lobe, product) - s);

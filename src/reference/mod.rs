@@ -17,7 +17,6 @@ mod relief;
 mod shade;
 mod specular_residual;
 mod specular_scale;
-mod srgb_decode;
 mod synth;
 
 pub use brdf_values::brdf_values;
@@ -36,5 +35,4 @@ pub use reconstruct::reconstruct;
 pub use shade::Surface;
 pub use specular_residual::specular_residual;
 pub use specular_scale::specular_scale;
-pub use srgb_decode::srgb_decode;
 pub use synth::{SynthSurface, synth};

@@ -5,10 +5,11 @@ use crate::{
     model::{FitSettings, SpecularScale, lafortune},
 };
 
-/// ρ_s of one channel from its residuals s = max(f − ρ_d, 0), one a sample, by the rule of `settings` (thesis eq. 3.6).
+/// ρ_s of one channel from its residuals s = max(f − ρ_d, 0), one a sample and negative where masked, by the rule of
+/// `settings` (thesis eq. 3.6).
 #[must_use]
 pub fn specular_scale(residuals: &[f64], samples: &Samples, lobe: [f64; 4], settings: &FitSettings) -> f64 {
-    let pairs = samples.products().map(|product| lafortune(lobe, product)).zip(residuals);
+    let pairs = samples.products().map(|product| lafortune(lobe, product)).zip(residuals).filter(|(_, s)| **s >= 0.0);
     match settings.specular_scale {
         SpecularScale::LeastSquares => {
             let (above, below) = pairs.fold((0.0, 0.0), |(above, below), (l, s)| (above + s * l, below + l * l));

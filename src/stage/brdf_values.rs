@@ -39,7 +39,7 @@ impl BrdfValues {
     }
 
     /// π·f_r of a tile of radiance in reflectance units. The caller leaves grazing lights out of the tile
-    /// ([`FitSettings::min_cos_light`](crate::model::FitSettings::min_cos_light)).
+    /// ([`FitSettings::min_cos_light`](crate::model::FitSettings::min_cos_light)). Masked samples stay masked.
     ///
     /// # Errors
     /// [`GpuError`] if the result does not fit the adapter.

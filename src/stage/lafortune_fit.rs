@@ -1,5 +1,5 @@
 //! Levenberg-Marquardt fit of one Lafortune lobe a texel (Lafortune et al. 1997; thesis section 3.2.2, step 5). Kernels
-//! `lafortune_start`, `lafortune_active`, `lafortune_fit` (one step) and `lafortune_result`, twin
+//! `lafortune_energy`, `lafortune_start`, `lafortune_active`, `lafortune_fit` (one step) and `lafortune_result`, twin
 //! [`reference::lafortune_fit`](crate::reference::lafortune_fit).
 //!
 //! The thesis fits (C_x, C_y, C_z, n) as they stand. In these the amplitude |C|^n and the exponent are nearly dependent and
@@ -10,6 +10,9 @@
 //! texel descends a little way from each of [`STARTS`], and the best of those points goes on until it settles. A descent is a
 //! fixed number of passes; every [`STEPS_A_LIST`]th is preceded by a new list of the texels that still run, so that threads
 //! side by side all have work.
+//!
+//! Masked samples take no part: the objective is the mean over a texel's valid samples, and a texel with fewer than
+//! [`MIN_LOBE_SAMPLES`] gets no lobe.
 
 use half::f16;
 
@@ -21,7 +24,7 @@ use crate::{
     data::{OCTET, Samples},
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct,
-    model::FitSettings,
+    model::{FitSettings, MIN_LOBE_SAMPLES},
     wgsl,
 };
 
@@ -47,7 +50,13 @@ gpu_struct! {
     }
 }
 gpu_struct! {
-    struct StartParams { start: [f32; 4], texels: u32, first: u32, _pad0: u32, _pad1: u32 }
+    struct Energy { valid: u32, sum: f32 }
+}
+gpu_struct! {
+    struct EnergyParams { texels: u32, samples: u32, octets: u32, _pad: u32 }
+}
+gpu_struct! {
+    struct StartParams { start: [f32; 4], texels: u32, first: u32, min_valid: u32, _pad: u32 }
 }
 gpu_struct! {
     struct StepParams {
@@ -58,7 +67,7 @@ gpu_struct! {
     struct ActiveParams { texels: u32, _pad0: u32, _pad1: u32, _pad2: u32 }
 }
 gpu_struct! {
-    struct ResultParams { texels: u32, samples: u32 }
+    struct ResultParams { texels: u32, _pad0: u32, _pad1: u32, _pad2: u32 }
 }
 
 /// Starting points (k, n): towards the mirrored light, broad and narrow, as a highlight wants; along the normal, as a
@@ -82,9 +91,9 @@ const EXPLORING_TOLERANCE: f64 = 100.0;
 /// What the fit of a tile gives.
 #[derive(Debug)]
 pub struct FittedLobes {
-    /// `[texel]` (C_x, C_y, C_z, n).
+    /// `[texel]` (C_x, C_y, C_z, n); C = 0 and n = 1 without a lobe.
     pub lobes: Buffer<[f32; 4]>,
-    /// `[texel]` mean squared residual without a lobe and with it, reflectance².
+    /// `[texel]` mean squared residual of the valid samples without a lobe and with it, reflectance²; 0 without valid samples.
     pub objectives: Buffer<[f32; 2]>,
     /// `[texel]` [`FitStatus`](crate::data::FitStatus) code and steps tried.
     pub outcomes: Buffer<[u32; 2]>,
@@ -93,6 +102,7 @@ pub struct FittedLobes {
 /// The stage's kernels on one device.
 #[derive(Debug)]
 pub struct LafortuneFit {
+    energy: Kernel,
     start: Kernel,
     active: Kernel,
     step: Kernel,
@@ -108,7 +118,13 @@ impl LafortuneFit {
     /// # Errors
     /// [`GpuError`] if the driver refuses one.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let start = [Resource::uniform::<StartParams>("params"), Resource::read_write::<FitState>("states")];
+        let energy = [
+            Resource::uniform::<EnergyParams>("params"),
+            Resource::read::<[f16; OCTET]>("residual"),
+            Resource::read_write::<Energy>("energies"),
+        ];
+        let start =
+            [Resource::uniform::<StartParams>("params"), Resource::read::<Energy>("energies"), Resource::read_write::<FitState>("states")];
         let active =
             [Resource::uniform::<ActiveParams>("params"), Resource::read::<FitState>("states"), Resource::read_write::<u32>("listed")];
         let step = [
@@ -121,11 +137,13 @@ impl LafortuneFit {
         let result = [
             Resource::uniform::<ResultParams>("params"),
             Resource::read::<FitState>("states"),
+            Resource::read::<Energy>("energies"),
             Resource::read_write::<[f32; 4]>("lobes"),
             Resource::read_write::<[f32; 2]>("objectives"),
             Resource::read_write::<[u32; 2]>("outcomes"),
         ];
         Ok(Self {
+            energy: Kernel::new(gpu, &wgsl::LAFORTUNE_ENERGY, wgsl::ALL, &energy)?,
             start: Kernel::new(gpu, &wgsl::LAFORTUNE_START, wgsl::ALL, &start)?,
             active: Kernel::new(gpu, &wgsl::LAFORTUNE_ACTIVE, wgsl::ALL, &active)?,
             step: Kernel::new(gpu, &wgsl::LAFORTUNE_FIT, wgsl::ALL, &step)?,
@@ -133,7 +151,7 @@ impl LafortuneFit {
         })
     }
 
-    /// Fits a lobe to each texel's mean specular residual `[octet][texel]`.
+    /// Fits a lobe to each texel's mean specular residual `[octet][texel]`, negative where masked.
     ///
     /// # Errors
     /// [`GpuError`] if a result does not fit the adapter.
@@ -145,12 +163,25 @@ impl LafortuneFit {
             stage: self,
             products: upload_products(gpu, samples)?,
             residual,
+            energies: gpu.fresh("energies", texels)?,
             states: gpu.fresh("fit states", texels)?,
             listed: gpu.fresh("running texels", 1 + texels)?,
             texels,
             octets: samples.octets(),
             settings,
         };
+        let params = EnergyParams {
+            texels: count(texels),
+            samples: count(samples.len()),
+            octets: count(samples.octets()),
+            ..EnergyParams::default()
+        };
+        let params = gpu.uniform("lafortune_energy params", &params)?;
+        recorder.dispatch(
+            &self.energy,
+            &[bind("params", &params), bind("residual", residual), bind("energies", &descents.energies)],
+            Grid::threads(texels),
+        )?;
         let [least, greatest] = settings.exponents.map(single);
         for (index, [x, y, z, exponent]) in STARTS.into_iter().enumerate() {
             let start = [x, y, z, exponent.clamp(least, greatest)];
@@ -165,7 +196,7 @@ impl LafortuneFit {
         let champion = [0.0; 4];
         descents.record(recorder, champion, false, settings.max_iterations, settings.tolerance)?;
 
-        let params = gpu.uniform("lafortune_result params", &ResultParams { texels: count(texels), samples: count(samples.len()) })?;
+        let params = gpu.uniform("lafortune_result params", &ResultParams { texels: count(texels), ..ResultParams::default() })?;
         let fitted = FittedLobes {
             lobes: gpu.fresh("lobes", texels)?,
             objectives: gpu.fresh("objectives", texels)?,
@@ -174,6 +205,7 @@ impl LafortuneFit {
         let binds = [
             bind("params", &params),
             bind("states", &descents.states),
+            bind("energies", &descents.energies),
             bind("lobes", &fitted.lobes),
             bind("objectives", &fitted.objectives),
             bind("outcomes", &fitted.outcomes),
@@ -188,6 +220,7 @@ struct Descents<'a> {
     stage: &'a LafortuneFit,
     products: Buffer<[f32; 4]>,
     residual: &'a Buffer<[f16; OCTET]>,
+    energies: Buffer<Energy>,
     states: Buffer<FitState>,
     listed: Buffer<u32>,
     texels: usize,
@@ -199,9 +232,19 @@ impl Descents<'_> {
     /// One descent from `start`, of at most `steps`.
     fn record(&self, recorder: &mut Recorder<'_>, start: [f32; 4], first: bool, steps: u32, tolerance: f64) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
-        let params = StartParams { start, texels: count(self.texels), first: u32::from(first), ..StartParams::default() };
+        let params = StartParams {
+            start,
+            texels: count(self.texels),
+            first: u32::from(first),
+            min_valid: MIN_LOBE_SAMPLES,
+            ..StartParams::default()
+        };
         let params = gpu.uniform("lafortune_start params", &params)?;
-        recorder.dispatch(&self.stage.start, &[bind("params", &params), bind("states", &self.states)], Grid::threads(self.texels))?;
+        recorder.dispatch(
+            &self.stage.start,
+            &[bind("params", &params), bind("energies", &self.energies), bind("states", &self.states)],
+            Grid::threads(self.texels),
+        )?;
 
         let params = ActiveParams { texels: count(self.texels), ..ActiveParams::default() };
         let params = gpu.uniform("lafortune_active params", &params)?;

@@ -35,7 +35,7 @@ impl SpecularResidual {
         Ok(Self { kernel: Kernel::new(gpu, &wgsl::SPECULAR_RESIDUAL, wgsl::ALL, &resources)? })
     }
 
-    /// The mean residual `[octet][texel]` of a tile of reflectance above `diffuse` `[texel]`.
+    /// The mean residual `[octet][texel]` of a tile of reflectance above `diffuse` `[texel]`, −1 where masked.
     ///
     /// # Errors
     /// [`GpuError`] if the result does not fit the adapter.

@@ -46,7 +46,7 @@ impl SpecularScale {
     }
 
     /// ρ_s `[texel]`, one channel a component and 0 in the fourth, from a tile of reflectance, ρ_d `[texel]` and lobes `[texel]`
-    /// (C_x, C_y, C_z, n).
+    /// (C_x, C_y, C_z, n). Masked samples are left out; without a lobe ρ_s is 0.
     ///
     /// # Errors
     /// [`GpuError`] if the result does not fit the adapter.

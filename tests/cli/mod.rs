@@ -1,19 +1,11 @@
 //! The command line, run as a user runs it.
 
-mod errors;
-mod help;
-mod main_job;
-mod progress;
-mod usage;
+crate::suites! { errors, help, killed, main_job, progress, python, reading, usage }
 
 use std::{
     path::Path,
     process::{Command, Stdio},
 };
-
-pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [errors::tests(), help::tests(), main_job::tests(), progress::tests(), usage::tests()].into_iter().flatten().collect()
-}
 
 /// What a command printed and how it ended.
 #[derive(Debug)]

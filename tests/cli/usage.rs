@@ -37,9 +37,21 @@ const OUT_OF_RANGE: &[(&[&str], &str)] = &[
     (&["fit", "s", "-o", "m", "--iterations", "0"], "0 is not in 1..=10000"),
     (&["fit", "s", "-o", "m", "--iterations", "-1"], "-1 is not in 1..=10000"),
     (&["fit", "s", "-o", "m", "--boundary", "torus"], "invalid value 'torus'"),
+    (&["fit", "s", "-o", "m", "--stereo", "median"], "invalid value 'median'"),
     (&["fit", "s", "-o", "m", "--specular-scale", "guess"], "invalid value 'guess'"),
     (&["fit", "s", "-o", "m", "--diffuse-quantile", "1.5"], "expected a number from 0 to 1"),
     (&["fit", "s", "-o", "m", "--max-slope", "inf"], "expected a number above 0"),
+    (&["fit", "s", "-o", "m", "--transfer", "gamma:0"], "expected srgb, linear, or gamma and a number above 0"),
+    (&["info", "s", "--transfer", "gamma"], "such as gamma:2.2"),
+    (&["info", "s", "--cosine", "maybe"], "invalid value 'maybe'"),
+    (&["info", "s", "--rows", "sideways"], "invalid value 'sideways'"),
+    (&["info", "s", "--scale", "-1"], "expected a number above 0"),
+    (&["info", "s", "--region", "0,0,0x5"], "expected X,Y,WxH"),
+    (&["info", "s", "--region", "-1,0,5x5"], "expected X,Y,WxH"),
+    (&["info", "s", "--region", "5x5"], "such as 64,0,128x128"),
+    (&["info", "s", "--every", "0"], "expected an integer of 1 or more"),
+    (&["info", "s", "--max-theta", "91"], "from 0 to 90 degrees"),
+    (&["info", "s", "--max-theta", "NaN"], "from 0 to 90 degrees"),
 ];
 
 fn values_out_of_range_are_usage_errors() {

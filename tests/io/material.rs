@@ -45,6 +45,7 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
             objective: Map::from_fn(width, height, |_, _| f32::NAN),
             iterations: Map::from_fn(width, height, |x, y| (x * y) as u32),
             status: Map::from_fn(width, height, |x, y| ((x + y) % FitStatus::ALL.len()) as u32),
+            masked: Map::from_fn(width, height, |x, y| (x + 2 * y) as u32),
         },
         provenance: Provenance {
             source: "a \"sample\", θ".to_owned(),
@@ -74,7 +75,12 @@ fn bits(material: &Material) -> Vec<u32> {
         fit.objective_without_lobe.values(),
         fit.objective.values(),
     ];
-    floats.concat().into_iter().map(f32::to_bits).chain([fit.iterations.values(), fit.status.values()].concat()).collect()
+    floats
+        .concat()
+        .into_iter()
+        .map(f32::to_bits)
+        .chain([fit.iterations.values(), fit.status.values(), fit.masked.values()].concat())
+        .collect()
 }
 
 fn saved(material: &Material) -> (TempDir, PathBuf) {
@@ -190,6 +196,7 @@ fn missing_and_damaged_arrays_are_named() {
         "fit_objective",
         "fit_iterations",
         "fit_status",
+        "fit_masked",
     ];
     let material = sample([9, 300], 1);
     let (_folder, path) = saved(&material);

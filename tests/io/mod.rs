@@ -1,22 +1,19 @@
 //! Readers and writers.
 
-mod archive;
-mod material;
-mod measured;
-mod picture;
-mod tree;
+crate::suites! {
+    archive, btf_file, corpus, dataset, deep, encoding, lights, material, measured, openexr, picture, radiance_hdr, selection, tree,
+}
 
 use std::{io::Cursor, path::Path};
 
+use half::f16;
 use image::{ImageFormat, RgbImage};
 use overpaint::{
-    io::{IoError, Source},
+    data::Block,
+    io::{self, IoError, Source},
     model::color,
 };
-
-pub fn tests() -> Vec<libtest_mimic::Trial> {
-    [archive::tests(), material::tests(), measured::tests(), picture::tests(), tree::tests()].into_iter().flatten().collect()
-}
+use tempfile::TempDir;
 
 /// An encoded image of smooth colours that depend on `seed`.
 fn encoded(format: ImageFormat, [width, height]: [u32; 2], seed: usize) -> Vec<u8> {
@@ -52,6 +49,25 @@ fn write_tree(folder: &Path, files: &[(String, Vec<u8>)]) {
 fn codes(source: &dyn Source, sample: usize) -> Result<Vec<[u8; 4]>, IoError> {
     let code = |linear: f32| (255.0 * color::srgb_from_linear(f64::from(linear))).round() as u8;
     Ok(source.picture(sample)?.values().iter().map(|&[r, g, b]| [code(r), code(g), code(b), 255]).collect())
+}
+
+/// A tree of one image.
+fn single(extension: &str, bytes: &[u8]) -> TempDir {
+    let folder = tempfile::tempdir().expect("is writable");
+    write_tree(folder.path(), &[(bonn_name(0, extension), bytes.to_vec())]);
+    folder
+}
+
+/// Radiance of a block of some samples, `[sample][channel][texel]`.
+fn read(source: &dyn Source, samples: &[usize], block: Block) -> Result<Vec<f16>, IoError> {
+    let mut radiance = vec![f16::ZERO; 3 * samples.len() * block.texels()];
+    source.read(samples, block, &mut radiance, &|_| {})?;
+    Ok(radiance)
+}
+
+/// RGB of each texel of the only sample of a tree.
+fn texels(folder: &Path) -> Result<Vec<[f32; 3]>, IoError> {
+    Ok(io::open(folder)?.picture(0)?.values().to_vec())
 }
 
 /// The error's text, which must contain each of `parts`.

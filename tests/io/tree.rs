@@ -2,7 +2,7 @@
 
 use image::ImageFormat;
 use overpaint::{
-    data::Transfer,
+    data::{Direction, Pair, Transfer},
     io::{self, Kind},
 };
 use rayon::prelude::*;
@@ -14,8 +14,9 @@ crate::suite! { plain:
     a_complete_tree_is_read_in_order,
     every_format_is_read,
     names_are_read_however_they_are_written,
-    a_missing_pair_is_named,
-    many_missing_pairs_are_counted,
+    pairs_may_be_scattered,
+    the_zenith_is_one_direction,
+    directions_are_in_names,
     a_repeated_pair_names_both_files,
     images_of_different_sizes_are_refused,
     every_truncation_of_a_jpeg_is_an_error,
@@ -104,20 +105,54 @@ fn names_are_read_however_they_are_written() {
     assert_eq!((view.to_string(), light.to_string()), ("θ 7.5 φ 22.25".to_owned(), "θ 52.5 φ 359.9".to_owned()));
 }
 
-fn a_missing_pair_is_named() {
+fn pairs_may_be_scattered() {
     let mut files = small_tree();
     files.remove(4);
-    files.push(("preview.jpg".to_owned(), Vec::new()));
-    let folder = folder(&files);
-    let parts =
-        ["2 views x 3 lights need 6 images", "1 of them are missing: view θ 45 φ 90, light θ 15 φ 120;", "1 images have no directions"];
-    assert_says(io::open(folder.path()), &parts);
+    let tree = folder(&files);
+    let source = io::open(tree.path()).expect("opens");
+    let btf = source.btf();
+    assert_eq!((btf.views().len(), btf.lights().len(), btf.pairs().len(), btf.missing()), (2, 3, 5, 1));
+    assert_eq!(btf.missing_pairs().collect::<Vec<_>>(), [Pair { view: 1, light: 1 }]);
+    assert!(!btf.is_product());
+    for (sample, stored) in [0, 1, 2, 3, 5].into_iter().enumerate() {
+        let (view, light) = btf.directions(sample);
+        let found = [view.degrees().0, view.degrees().1, light.degrees().0, light.degrees().1].map(|angle| angle.round() as u32);
+        assert_eq!(found, PAIRS[stored]);
+        let expected = image::load_from_memory(&encoded(ImageFormat::Jpeg, [12, 9], stored)).expect("decodes").into_rgba8();
+        assert_eq!(codes(source.as_ref(), sample).expect("decodes").as_flattened(), expected.as_raw().as_slice());
+    }
+
+    // As CUReT: hardly any two samples share a view or a light.
+    let names = (0..30).map(|index| format!("tl{index:03} pl000 tv{:03} pv000.png", 29 - index));
+    let tree = folder(&names.map(|name| (name, encoded(ImageFormat::Png, [2, 2], 0))).collect::<Vec<_>>());
+    let source = io::open(tree.path()).expect("opens");
+    let btf = source.btf();
+    assert_eq!((btf.views().len(), btf.lights().len(), btf.pairs().len(), btf.missing()), (30, 30, 30, 870));
+    assert!(btf.pairs().windows(2).all(|pair| pair[0] < pair[1]), "view-major");
+    assert_eq!(btf.missing_pairs().count(), 870);
+    assert!(btf.missing_pairs().all(|pair| !btf.pairs().contains(&pair)));
 }
 
-fn many_missing_pairs_are_counted() {
-    let names = (0..30).map(|index| format!("tl{index:03} pl000 tv{index:03} pv000.png"));
-    let folder = folder(&names.map(|name| (name, Vec::new())).collect::<Vec<_>>());
-    assert_says(io::open(folder.path()), &["870 of them are missing", "view θ 0 φ 0, light θ 1 φ 0; ", "; …;"]);
+fn the_zenith_is_one_direction() {
+    let names =
+        ["tl000 pl030 tv000 pv090.png", "tl015 pl030 tv000 pv000.png", "tl000 pl000 tv015 pv000.png", "tl015 pl030 tv015 pv360.png"];
+    let tree = folder(&names.map(|name| (name.to_owned(), encoded(ImageFormat::Png, [2, 2], 0))));
+    let source = io::open(tree.path()).expect("opens");
+    let texts = |directions: &[Direction]| directions.iter().map(ToString::to_string).collect::<Vec<_>>();
+    assert_eq!(texts(source.btf().views()), ["θ 0 φ 0", "θ 15 φ 0"]);
+    assert_eq!(texts(source.btf().lights()), ["θ 0 φ 0", "θ 15 φ 30"]);
+    assert!(source.btf().is_product());
+    write_tree(tree.path(), &[("tl000 pl090 tv000 pv270.png".to_owned(), Vec::new())]);
+    assert_says(io::open(tree.path()), &["view θ 0 φ 0, light θ 0 φ 0 is there twice", names[0], "tl000 pl090 tv000 pv270.png"]);
+}
+
+fn directions_are_in_names() {
+    let found = io::directions_in_name("somewhere/00008 tl015 pl420 tv000.0 pv090.jpg").expect("are there");
+    assert_eq!((found.0.to_string(), found.1.to_string()), ("θ 0 φ 0".to_owned(), "θ 15 φ 60".to_owned()));
+    for name in ["", "tl0pl0tv0pv0", "tl0pl0tv0.jpg", "tl0pl0tv0pv0pv0.jpg", "tl0pl0tv0pv0/a.jpg", "xtl0pl0tv0pv0.jpg"] {
+        assert_eq!(io::directions_in_name(name), None, "{name}");
+    }
+    assert!(io::directions_in_name("tl-99999999999999999999999999 pl-9e99 tv0 pv999999999999999999999999.é").is_some());
 }
 
 fn a_repeated_pair_names_both_files() {
@@ -212,17 +247,11 @@ fn a_direction_below_the_horizon_is_refused() {
 }
 
 fn formats_that_are_not_read_are_named() {
-    for (extension, format) in [("exr", "OpenEXR"), ("hdr", "Radiance HDR")] {
-        let folder = folder(&[(bonn_name(0, extension), Vec::new())]);
-        assert_says(io::open(folder.path()), &[&bonn_name(0, extension), format, "8 bits", "JPEG, PNG, BMP or TIFF"]);
-    }
-    let deep = image::ImageBuffer::<image::Luma<u16>, _>::from_pixel(4, 4, image::Luma([40_000]));
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    deep.write_to(&mut bytes, ImageFormat::Png).expect("encodes");
-    let tree = folder(&[(bonn_name(0, "png"), bytes.into_inner())]);
-    assert_says(io::open(tree.path()), &[&bonn_name(0, "png"), "L16", "8 bits"]);
     let tree = folder(&[(bonn_name(0, "jpg"), b"GIF89a and so on".to_vec())]);
-    assert_says(io::open(tree.path()), &[&bonn_name(0, "jpg"), "Gif"]);
+    assert_says(
+        io::open(tree.path()),
+        &[&bonn_name(0, "jpg"), "Gif", "JPEG, PNG, BMP and TIFF of 8 or 16 bits", "Radiance HDR and OpenEXR"],
+    );
 }
 
 fn an_absurd_size_is_refused_before_it_is_allocated() {

@@ -5,7 +5,10 @@ use crate::{
     support::{random::Random, tile},
 };
 
-crate::suite! { gpu: nothing_is_left_at_or_below_the_diffuse_part, a_constant_added_to_both_does_not_matter, what_follows_the_last_sample_becomes_zero; }
+crate::suite! {
+    gpu: nothing_is_left_at_or_below_the_diffuse_part, a_constant_added_to_both_does_not_matter, what_follows_the_last_sample_becomes_zero,
+        the_largest_residual_is_finite;
+}
 
 const TEXELS: usize = 70;
 const SAMPLES: usize = 27;
@@ -47,4 +50,11 @@ fn what_follows_the_last_sample_becomes_zero(gpu: &Gpu) {
             assert_eq!(found, if index / 5 < samples { 0.75 } else { 0.0 });
         }
     }
+}
+
+/// Its mean over the channels may be rounded up, but no further than to the largest half; down by one unit in a half's last place, 32.
+fn the_largest_residual_is_finite(gpu: &Gpu) {
+    let reflectance = tile::upload(gpu, TEXELS, 8, |_, _, _| 65504.0);
+    let found = residual(gpu, &reflectance, &[[0.0; 4]; TEXELS]);
+    assert!(found.iter().all(|value| (65472.0..=65504.0).contains(value)));
 }

@@ -1,80 +1,111 @@
-//! The main job does not depend on how it is cut into tiles and bands.
+//! The main job does not depend on how it is cut into blocks and tiles, nor on being killed and taken up again.
 
-use half::f16;
+use std::fs;
+
 use overpaint::{
-    data::{Block, Btf, Direction, Encoding, Pair, Transfer},
     gpu::Gpu,
-    io::{IoError, Source},
+    io::{IoError, Source, Unfinished},
     model::FitSettings,
-    pipeline::{Memory, Progress, fit_within},
+    pipeline::{Memory, Observer, Progress, fit_job, fit_within, import},
 };
 
-use crate::support::random::Random;
+use crate::support::speckle::Speckle;
 
-crate::suite! { gpu: any_tiles_give_the_same_bits; }
+crate::suite! { gpu: any_tiles_give_the_same_bits, a_dataset_gives_the_bits_of_its_source, kept_tiles_are_taken_up, pairs_may_be_missing; }
 
 const SIZE: [usize; 2] = [9, 7];
 
-/// A source made of numbers.
-#[derive(Debug)]
-struct Speckle(Btf);
-
-impl Speckle {
-    fn new() -> Self {
-        let ring = |theta: f64, count: usize| (0..count).map(move |k| Direction::from_degrees(theta, 360.0 * k as f64 / count as f64));
-        let views: Vec<_> = ring(0.0, 1).chain(ring(40.0, 4)).collect();
-        let lights: Vec<_> = ring(15.0, 3).chain(ring(55.0, 6)).collect();
-        let pairs = (0..views.len()).flat_map(|view| (0..lights.len()).map(move |light| Pair { view, light })).collect();
-        Self(Btf::new("speckle".to_owned(), SIZE, views, lights, pairs, Encoding::photograph(Transfer::Srgb)).expect("is a BTF"))
+/// The bits of a material.
+fn fitted(gpu: &Gpu, source: &dyn Source, memory: Memory, unfinished: Option<&Unfinished>) -> Vec<u32> {
+    let progress = Progress::new(gpu.adapter());
+    let material = fit_within(gpu, source, &FitSettings::default(), memory, unfinished, &progress).expect("fits");
+    let svbrdf = material.svbrdf;
+    let mut bits: Vec<u32> = material.height.values().iter().map(|z| z.to_bits()).collect();
+    for map in [&svbrdf.diffuse, &svbrdf.specular, &material.normal_measured] {
+        bits.extend(map.values().iter().flatten().map(|value| value.to_bits()));
     }
+    bits.extend(svbrdf.lobe.values().iter().flatten().map(|value| value.to_bits()));
+    bits.extend(material.fit.iterations.values());
+    bits
 }
 
-impl Source for Speckle {
-    fn btf(&self) -> &Btf {
-        &self.0
-    }
-
-    fn read(&self, samples: &[usize], block: Block, radiance: &mut [f16], done: &(dyn Fn(usize) + Sync)) -> Result<(), IoError> {
-        for (values, &sample) in radiance.chunks_exact_mut(3 * block.texels()).zip(samples) {
-            let mut random = Random::new(sample as u64);
-            let picture: Vec<f16> = (0..3 * self.0.texels()).map(|_| f16::from_f64(0.05 + 0.7 * random.unit())).collect();
-            for (channel, values) in values.chunks_exact_mut(block.texels()).enumerate() {
-                for (value, texel) in values.iter_mut().zip(block.rows().flat_map(|row| block.columns().map(move |column| row * SIZE[0] + column))) {
-                    *value = picture[channel * self.0.texels() + texel];
-                }
-            }
-            done(1);
-        }
-        Ok(())
-    }
-
-    fn fingerprint(&self) -> String {
-        "speckle".to_owned()
-    }
+/// Memory for a tile of so many texels and two blocks of so many, of 45 samples.
+fn memory(tile: usize, block: usize) -> Memory {
+    // 45 samples are six octets of three channels; beside three copies of them, the adapter keeps up to 256 bytes a texel.
+    Memory { host: 2 * block * 45 * 6, adapter: (tile * (3 * 3 * 6 * 16 + 256)) as u64 }
 }
 
 fn any_tiles_give_the_same_bits(gpu: &Gpu) {
-    let source = Speckle::new();
-    let texels = source.btf().texels();
-    let samples = source.btf().pairs().len();
-    // Bytes of one texel: its halves on the adapter, 45 samples in six octets of three channels; its codes on the host.
-    let (halves, codes) = (3 * 6 * 16, samples * 6);
-    let fitted = |memory| {
-        let progress = Progress::new(gpu.adapter());
-        let material = fit_within(gpu, &source, &FitSettings::default(), memory, &progress).expect("fits");
-        let svbrdf = material.svbrdf;
-        let mut bits: Vec<u32> = material.height.values().iter().map(|z| z.to_bits()).collect();
-        for map in [&svbrdf.diffuse, &svbrdf.specular] {
-            bits.extend(map.values().iter().flatten().map(|value| value.to_bits()));
+    let mut source = Speckle::new(SIZE, 0);
+    source.invalid = 200;
+    let whole = fitted(gpu, &source, Memory::default(), None);
+    assert_eq!(whole.len(), 63 * (1 + 3 * 3 + 4 + 1));
+    for chunk in [None, Some([4, 4]), Some([9, 2])] {
+        source.chunk = chunk;
+        for (tile, block) in [(1, 1), (3, 2), (10, 10), (10, 20), (32, 63), (63, 1000)] {
+            assert!(whole == fitted(gpu, &source, memory(tile, block), None), "tiles of {tile} texels, blocks of {block}, {chunk:?}");
         }
-        bits.extend(svbrdf.lobe.values().iter().flatten().map(|value| value.to_bits()));
-        bits.extend(material.fit.iterations.values());
-        bits
-    };
-    let whole = fitted(Memory::default());
-    assert_eq!(whole.len(), texels * (1 + 3 + 3 + 4 + 1));
-    for (tile, band) in [(1, 1), (10, 10), (10, 20), (10, 25), (32, 63), (62, 1000), (63, 63)] {
-        let memory = Memory { host: band * codes, adapter: (tile * halves) as u64 };
-        assert!(whole == fitted(memory), "tiles of {tile} texels in bands of {band}");
     }
 }
+
+fn a_dataset_gives_the_bits_of_its_source(gpu: &Gpu) {
+    let mut source = Speckle::new(SIZE, 0);
+    source.invalid = 200;
+    let folder = tempfile::tempdir().expect("is made");
+    let path = folder.path().join("speckle.zarr");
+    import(&source, &path, Memory::default(), &Progress::on_host(Box::new(Silent))).expect("imports");
+    let dataset = overpaint::io::open(&path).expect("opens");
+    assert!(fitted(gpu, &source, Memory::default(), None) == fitted(gpu, dataset.as_ref(), memory(10, 20), None));
+}
+
+/// Whatever an earlier run with other memory has kept, and whatever of that is damaged.
+fn kept_tiles_are_taken_up(gpu: &Gpu) {
+    let source = Speckle::new(SIZE, 0);
+    let whole = fitted(gpu, &source, Memory::default(), None);
+    let folder = tempfile::tempdir().expect("is made");
+    let target = folder.path().join("speckle.zarr");
+    let job = fit_job(gpu, &source, &FitSettings::default());
+    let unfinished = Unfinished::begin(&target, &job).expect("begins");
+    assert!(!unfinished.is_resumed());
+    assert!(whole == fitted(gpu, &source, memory(10, 20), Some(&unfinished)));
+    let kept = unfinished.names().expect("is listed");
+    assert!(kept.len() > 10, "{kept:?}");
+    drop(unfinished);
+
+    let hidden = folder.path().join(".speckle.zarr.unfinished");
+    for (index, name) in kept.iter().enumerate() {
+        match index % 4 {
+            0 => fs::remove_file(hidden.join(name)).expect("is there"),
+            1 => fs::write(hidden.join(name), [7; 400]).expect("is written"),
+            _ => {}
+        }
+    }
+    let unfinished = Unfinished::begin(&target, &job).expect("begins");
+    assert!(unfinished.is_resumed());
+    assert!(whole == fitted(gpu, &source, memory(7, 15), Some(&unfinished)));
+
+    // What is kept is really used: a record with another lobe shows in the result.
+    let name = kept.iter().rfind(|name| name.starts_with("reflectance")).expect("is kept");
+    let mut bytes = unfinished.get(name).expect("is whole");
+    bytes[0] ^= 1;
+    unfinished.put(name, &bytes).expect("is kept");
+    assert!(whole != fitted(gpu, &source, memory(7, 15), Some(&unfinished)));
+
+    drop(unfinished);
+    let other = fit_job(gpu, &source, &FitSettings { max_iterations: 3, ..FitSettings::default() });
+    match Unfinished::begin(&target, &other) {
+        Err(IoError::OtherJob { differing, .. }) => assert_eq!(differing, "source, settings, adapter and version"),
+        found => panic!("{found:?}"),
+    }
+}
+
+fn pairs_may_be_missing(gpu: &Gpu) {
+    let bits = fitted(gpu, &Speckle::new(SIZE, 4), Memory::default(), None);
+    assert!(bits != fitted(gpu, &Speckle::new(SIZE, 0), Memory::default(), None), "fewer samples, another fit");
+    assert!(bits.iter().all(|&bits| f32::from_bits(bits).is_finite()));
+}
+
+#[derive(Debug)]
+struct Silent;
+
+impl Observer for Silent {}

@@ -17,7 +17,7 @@ fn agrees_with_its_twin(gpu: &Gpu) {
     for (samples, texels) in [(1, 1), (7, 63), (8, 64), (9, 65), (81, 500), (1, 64 * 21_846)] {
         let mut random = Random::new(5);
         let directions = tile::directions(&mut random, samples);
-        let radiance = tile::upload(gpu, texels, samples, |_, _, _| random.unit());
+        let radiance = tile::upload_masked(gpu, texels, samples, tile::a_quarter, |_, _, _| random.unit());
         let given = tile::unpack(&radiance.values.read(gpu).expect("reads"), texels);
         let found = reflectance(gpu, &radiance, &directions);
         let filled = radiance.octets() * 8;
@@ -25,7 +25,7 @@ fn agrees_with_its_twin(gpu: &Gpu) {
         let errors = found.into_iter().zip(given).enumerate().map(|(index, (found, given))| {
             let sample = index / texels % filled;
             let expected = if sample < samples { reference::brdf_values(given, directions.directions()[sample].1) } else { 0.0 };
-            (found - expected).abs() / expected.max(1e-3)
+            (found - expected).abs() / expected.abs().max(1e-3)
         });
         // One unit in the last place of a half: the driver may truncate.
         hold("brdf_values: relative", errors.worst(), 1.0 / 1024.0);

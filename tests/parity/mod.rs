@@ -17,5 +17,4 @@ crate::suites! {
     reconstruct,
     specular_residual,
     specular_scale,
-    srgb_decode,
 }

@@ -3,6 +3,7 @@
 pub mod npy;
 pub mod probe;
 pub mod random;
+pub mod speckle;
 pub mod surface;
 pub mod tile;
 

@@ -23,6 +23,21 @@ pub fn upload(gpu: &Gpu, texels: usize, samples: usize, mut value: impl FnMut(us
     Tile { values: gpu.upload("tile", &values).expect("fits"), texels, samples }
 }
 
+/// A tile like that of [`upload`], the samples masked for which `masked(sample, texel)` says so.
+pub fn upload_masked(
+    gpu: &Gpu, texels: usize, samples: usize, masked: impl Fn(usize, usize) -> bool, mut value: impl FnMut(usize, usize, usize) -> f64,
+) -> Tile {
+    upload(gpu, texels, samples, |channel, sample, texel| {
+        let value = value(channel, sample, texel);
+        if masked(sample, texel) { -1.0 } else { value }
+    })
+}
+
+/// Whether sample `sample` of texel `texel` is one of about a quarter that tests mask: the same for every tile.
+pub fn a_quarter(sample: usize, texel: usize) -> bool {
+    Random::new((sample + texel * 1_000_003) as u64).below(4) == 0
+}
+
 /// The values of octets `[plane][octet][texel]` as `[plane][sample][texel]`, with the filling after the last sample.
 pub fn unpack(octets: &[[f16; OCTET]], texels: usize) -> Vec<f64> {
     let mut values = vec![0.0; octets.len() * OCTET];

@@ -49,11 +49,15 @@ pub(super) const STATUS: Layout = layout(
     "fit_status",
     None,
     "code",
-    "0 out of iterations, 1 converged, 2 no specular part, 3 settled to rounding: no step lowers the objective in single precision",
+    "0 out of iterations, 1 converged, 2 no specular part, 3 settled to rounding: no step lowers the objective in single precision, \
+     4 too few valid samples: no lobe",
 );
 
+pub(super) const MASKED: Layout =
+    layout("fit_masked", None, "1", "number of masked samples: measurements that were NaN, infinite or negative, which take no part");
+
 /// Names of all arrays.
-pub(super) const NAMES: [&str; 11] = [
+pub(super) const NAMES: [&str; 12] = [
     HEIGHT.name,
     NORMAL.name,
     NORMAL_MEASURED.name,
@@ -65,6 +69,7 @@ pub(super) const NAMES: [&str; 11] = [
     OBJECTIVE.name,
     ITERATIONS.name,
     STATUS.name,
+    MASKED.name,
 ];
 
 impl Layout {

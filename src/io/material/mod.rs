@@ -42,12 +42,13 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
     writer.store(&format::DIFFUSE, diffuse, diffuse.values().as_flattened())?;
     writer.store(&format::SPECULAR, specular, specular.values().as_flattened())?;
     writer.store(&format::LOBE, lobe, lobe.values().as_flattened())?;
-    let Fit { objective_without_lobe, objective, iterations, status } = &material.fit;
+    let Fit { objective_without_lobe, objective, iterations, status, masked } = &material.fit;
     writer.store(&format::OBJECTIVE_WITHOUT_LOBE, objective_without_lobe, objective_without_lobe.values())?;
     writer.store(&format::OBJECTIVE, objective, objective.values())?;
     writer.store(&format::ITERATIONS, iterations, iterations.values())?;
     let codes: Vec<u8> = status.values().iter().map(|&code| status_code(path, code)).collect::<Result<_, _>>()?;
     writer.store(&format::STATUS, status, &codes)?;
+    writer.store(&format::MASKED, masked, masked.values())?;
 
     let [width, height] = material.size();
     let provenance = serde_json::to_value(&material.provenance).map_err(|error| not_written(path, &error))?;
@@ -111,6 +112,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
             objective: reader.scalars(&format::OBJECTIVE)?,
             iterations: reader.scalars(&format::ITERATIONS)?,
             status: Map::new(width, height, status)?,
+            masked: reader.scalars(&format::MASKED)?,
         },
         provenance,
     })
