@@ -31,6 +31,8 @@ sources! {
     GATHER = "kernels" "gather";
     /// One layer of paint over diffuse reflectance.
     KUBELKA_MUNK = "kernels" "kubelka_munk";
+    /// Rays against a periodic height field, exactly.
+    HEIGHT_MARCH = "kernels/common" "height_march";
     /// The Lafortune lobe.
     LAFORTUNE = "kernels/common" "lafortune";
     /// Texels whose Lafortune fit still runs.
@@ -81,6 +83,8 @@ sources! {
     SPECULAR_SCALE = "kernels" "specular_scale";
     /// The maps and directions that shading reads.
     SURFACE = "kernels/common" "surface";
+    /// Radiance of a material that is fully known.
+    SYNTH = "kernels" "synth";
     /// Index of a thread in a folded grid.
     THREAD = "kernels/common" "thread";
 }

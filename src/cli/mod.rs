@@ -17,6 +17,7 @@ mod reading;
 mod reconstruct;
 mod render;
 mod session;
+mod synth;
 
 use std::{
     ffi::OsString,
@@ -56,6 +57,7 @@ enum Command {
     Info(info::Info),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
+    Synth(synth::Synth),
     Adapters(adapters::Adapters),
 }
 
@@ -71,6 +73,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Import(import) => import.run(&session),
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
+        Command::Synth(synth) => synth.run(&session),
         Command::Info(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
             .error(clap::error::ErrorKind::ArgumentConflict, "--adapter and --timings are for commands that compute; leave them out here")
             .into()),

@@ -3,7 +3,10 @@
 
 use std::collections::BTreeSet;
 
-use super::{Direction, Encoding};
+use super::{
+    Direction, Encoding,
+    grid::{Ring, UBO81, UBO151},
+};
 
 /// One sample: which view and which light, as indices into [`Btf::views`] and [`Btf::lights`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -181,13 +184,11 @@ impl Btf {
             rings.sort_unstable();
             rings
         };
-        const UBO81: [(i64, usize); 6] = [(0, 1), (150, 6), (300, 12), (450, 18), (600, 20), (750, 24)];
-        const UBO151: [(i64, usize); 10] =
-            [(0, 1), (110, 6), (235, 12), (300, 12), (375, 12), (450, 18), (525, 18), (600, 24), (675, 24), (750, 24)];
-        match (counts(&self.views).as_slice(), counts(&self.lights).as_slice()) {
-            (views, lights) if views == UBO81 && lights == UBO81 => Some("UBO81"),
-            (views, lights) if views == UBO151 && lights == UBO151 => Some("UBO151"),
-            _ => None,
-        }
+        let (views, lights) = (counts(&self.views), counts(&self.lights));
+        let known = |grid: &[Ring]| {
+            let is = |(&(tenths, count), ring): (&(i64, usize), &Ring)| tenths as f64 == 10.0 * ring.theta && count == ring.count;
+            [&views, &lights].into_iter().all(|found| found.len() == grid.len() && found.iter().zip(grid).all(is))
+        };
+        [("UBO81", UBO81), ("UBO151", UBO151)].into_iter().find(|(_, grid)| known(grid)).map(|(name, _)| name)
     }
 }

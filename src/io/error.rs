@@ -31,6 +31,15 @@ pub enum IoError {
         source: std::io::Error,
     },
 
+    /// A source whose samples are computed, which failed.
+    #[error("the samples of \"{name}\" could not be rendered: {source}")]
+    NotRendered {
+        /// Name of the source.
+        name: String,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+
     /// The unfinished work of another job.
     #[error(
         "an unfinished job for {target} stands in {folder} and differs from this one in: {differing}; run that job to its end, choose \

@@ -19,6 +19,7 @@ mod selection;
 mod source;
 mod staging;
 mod tree;
+mod tree_writer;
 mod unfinished;
 
 use std::path::Path;
@@ -29,6 +30,7 @@ pub use names::directions_in_name;
 pub use selection::SelectionFault;
 pub use source::{ReadOptions, Source, open, open_btf_bytes, open_with, open_zip_bytes};
 pub use staging::write;
+pub use tree_writer::{Lost, TreeFormat, TreeWriter};
 pub use unfinished::Unfinished;
 
 /// What a path holds.

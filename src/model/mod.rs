@@ -14,6 +14,7 @@ mod relief;
 mod settings;
 pub mod spectrum;
 pub mod stereo;
+mod synth;
 
 pub use boundary::Boundary;
 pub use coat::Coat;
@@ -25,3 +26,4 @@ pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;
 pub use relief::Relief;
 pub use settings::{FitSettings, SettingsError, SpecularScale, StereoMethod};
+pub use synth::{HeightField, Synth, SynthError, SynthPlace, SynthReflectance, SynthTexel};

@@ -4,7 +4,7 @@ use crate::{
     data::ShapeError,
     gpu::GpuError,
     io::IoError,
-    model::{PaintError, PatternError, SettingsError},
+    model::{PaintError, PatternError, SettingsError, SynthError},
     stage::StageError,
 };
 
@@ -24,6 +24,9 @@ pub enum PipelineError {
     /// A pattern that no stage can work with.
     #[error(transparent)]
     Pattern(#[from] PatternError),
+    /// A synthetic material that cannot be rendered.
+    #[error(transparent)]
+    Synth(#[from] SynthError),
     /// A stage refused its input.
     #[error(transparent)]
     Stage(#[from] StageError),

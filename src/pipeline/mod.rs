@@ -2,6 +2,7 @@
 
 mod demo;
 mod error;
+mod export;
 mod fit;
 mod geometry;
 mod import;
@@ -10,12 +11,15 @@ mod progress;
 mod reflectance;
 mod report;
 mod studio;
+mod synth;
 mod tiles;
 
 pub use demo::{REPORT, demo};
 pub use error::PipelineError;
+pub use export::export_tree;
 pub use fit::{fit, fit_job, fit_within};
 pub use import::{Imported, import};
 pub use memory::Memory;
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
 pub use studio::{Painting, Studio};
+pub use synth::Synthetic;

@@ -17,6 +17,7 @@ mod relief;
 mod shade;
 mod specular_residual;
 mod specular_scale;
+mod synth;
 
 pub use brdf_values::brdf_values;
 pub use fft::fft;
@@ -34,3 +35,4 @@ pub use reconstruct::reconstruct;
 pub use shade::Surface;
 pub use specular_residual::specular_residual;
 pub use specular_scale::specular_scale;
+pub use synth::{SynthSurface, synth};

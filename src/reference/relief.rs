@@ -115,6 +115,16 @@ impl<'a> HeightField<'a> {
             .fold(0.0, f64::max);
         1.0 - cover.min(1.0)
     }
+
+    /// Whether the field stands above the ray from a point of it to the light, anywhere.
+    pub(super) fn is_shadowed(&self, place: [f64; 2], height: f64, light: DVec3) -> bool {
+        // What a crossing's rounding leaves of the point's own height.
+        const ABOVE: f64 = 1e-9;
+        let run = run(light);
+        let start = [place[0] - height * run[0], place[1] - height * run[1]];
+        height + ABOVE < self.highest
+            && self.stretches(start, run, height + ABOVE, self.highest).any(|stretch| stretch.greatest_gap() > ABOVE)
+    }
 }
 
 impl Stretch {
@@ -138,6 +148,14 @@ impl Stretch {
         };
         zeros.sort_by(f64::total_cmp);
         zeros.into_iter().rev().find(|step| (0.0..=self.high - self.low).contains(step)).map(|step| self.low + step)
+    }
+
+    /// Largest of height minus z.
+    fn greatest_gap(&self) -> f64 {
+        let [_, c1, c2] = self.coefficients;
+        let summit = self.low - 0.5 * c1 / c2;
+        let ends = self.gap(self.low).max(self.gap(self.high));
+        if (self.low..=self.high).contains(&summit) { ends.max(self.gap(summit)) } else { ends }
     }
 
     /// Largest of (height minus z)/(z − `from`), `from` below the stretch.

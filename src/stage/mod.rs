@@ -17,6 +17,7 @@ mod scalar;
 mod specular_residual;
 mod specular_scale;
 mod surface;
+mod synth;
 mod tile;
 
 pub use brdf_values::BrdfValues;
@@ -35,6 +36,7 @@ pub use reconstruct::Reconstruct;
 pub use specular_residual::SpecularResidual;
 pub use specular_scale::SpecularScale;
 pub use surface::{Scene, Surface};
+pub use synth::{Rendered, Synth, SynthSurface};
 pub use tile::Tile;
 
-pub(crate) use scalar::count;
+pub(crate) use scalar::{count, single};
