@@ -23,5 +23,6 @@ crate::suites! {
     specular_residual,
     specular_scale,
     spectrum,
+    synth,
     tiles,
 }

@@ -84,7 +84,7 @@ fn angle((found, expected): (&[f32; 4], &[f64; 3])) -> f64 {
     cosine.clamp(-1.0, 1.0).acos().to_degrees()
 }
 
-fn correlate(a: &[f64], b: &[f64]) -> f64 {
+pub fn correlate(a: &[f64], b: &[f64]) -> f64 {
     covariance(a, b) / (covariance(a, a) * covariance(b, b)).sqrt()
 }
 

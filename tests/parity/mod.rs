@@ -17,4 +17,5 @@ crate::suites! {
     reconstruct,
     specular_residual,
     specular_scale,
+    synth,
 }
