@@ -29,9 +29,7 @@ struct Params {
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
-// maps are [row][column]; texel widths, positive outwards
-@group(0) @binding(1) var<storage, read> heights: array<f32>;
-// unit normals of `heights`, w = 0
+// maps are [row][column]; unit normals of `heights`, w = 0
 @group(0) @binding(2) var<storage, read> normals: array<vec4<f32>>;
 // rho_d per channel, reflectance
 @group(0) @binding(3) var<storage, read> diffuse: array<vec4<f32>>;
@@ -47,8 +45,8 @@ struct Params {
 const SIZE: u32 = 64u;
 // Lights that share a view ray.
 const LIGHTS: u32 = 16u;
-// Texel widths by which a light ray starts above the surface: rounding of heights up to 256 is 1e-4 with what a slope of 10 makes of it.
-const BIAS: f32 = 0.001;
+// Texel widths by which a light ray starts above the surface: heights up to 256 are rounded to 2e-5.
+const BIAS: f32 = 0.0002;
 // Directions with a cosine below this are taken for the horizon: nothing is seen from there, and no light comes.
 const MIN_COSINE: f32 = 0.001;
 

@@ -1,7 +1,9 @@
 // Rays against a periodic height field, exactly: between grid lines a ray runs over one bilinear patch, where the height below it is
 // a parabola in what the ray has climbed, and so is the first crossing (Ramsey, Potter, Hansen 2004). Texel centres are the corners of
 // cells; a place is a cell and the fraction of it passed, x to the right and y downwards, so that nothing is lost on large planes.
-// Reads `heights`, [row][column] in texel widths, which the importing kernel declares.
+
+// [row][column], texel widths, positive outwards
+@group(0) @binding(1) var<storage, read> heights: array<f32>;
 
 // Bound on the cells that a ray passes over: a relief of 256 texels at 85 degrees along a diagonal has 4139.
 const MAX_CELLS: u32 = 8192u;

@@ -11,6 +11,17 @@ fn nothing_typed_shows_the_help() {
 
 /// (arguments, what the error says).
 const OUT_OF_RANGE: &[(&[&str], &str)] = &[
+    (&["synth", "-o", "s", "--size", "0"], "expected a side or WxH"),
+    (&["synth", "-o", "s", "--size", "64x"], "expected a side or WxH"),
+    (&["synth", "-o", "s", "--size", "9000"], "expected a side or WxH"),
+    (&["synth", "-o", "s", "--relief", "-1"], "expected texel widths from 0 to 256"),
+    (&["synth", "-o", "s", "--relief", "NaN"], "expected texel widths from 0 to 256"),
+    (&["synth", "-o", "s", "--views", "ubo"], "expected zenith, ubo81, ubo151"),
+    (&["synth", "-o", "s", "--lights", "30:4,90:6"], "expected zenith, ubo81, ubo151"),
+    (&["synth", "-o", "s", "--height-field", "hills"], "invalid value 'hills'"),
+    (&["synth", "-o", "s", "--reflectance", "glass"], "invalid value 'glass'"),
+    (&["synth", "-o", "s", "--tree", "bmp"], "invalid value 'bmp'"),
+    (&["synth", "-o", "s", "--tree", "jpg", "--quality", "0"], "0 is not in 1..=100"),
     (&["paint"], "unrecognized subcommand 'paint'"),
     (&["reconstruct", "m", "--view", "90,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
     (&["reconstruct", "m", "--view", "-1,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
@@ -65,6 +76,8 @@ fn values_out_of_range_are_usage_errors() {
 fn what_belongs_together_is_asked_for_together() {
     let folder = tempfile::tempdir().expect("is made");
     let refuse = |arguments: &[&str], says: &str| refused(&overpaint(folder.path(), arguments), 2, says);
+    refuse(&["synth", "--tree", "jpg"], "  --output <OUT>\n");
+    refuse(&["synth", "-o", "s", "--quality", "90"], "  --tree <FORMAT>\n");
     refuse(&["render", "m"], "required arguments were not provided");
     refuse(&["render", "m", "--paint", "viridian", "-o", "a.png"], "  --thickness <D>\n");
     refuse(&["render", "m", "--pattern", "splash", "-o", "a.png"], "  --paint <NAME>\n");
