@@ -316,14 +316,14 @@ fn pictures_are_those_of_a_path_tracer(gpu: &Gpu, data: &Path) {
             // With view or light from the other side, or y downwards, it is another picture.
             let turned = |direction: Direction| Direction { phi: direction.phi + std::f64::consts::PI, ..direction };
             let flipped = |direction: Direction| Direction { phi: -direction.phi, ..direction };
-            let mut wrong = vec![(sample.0, turned(sample.1)), (flipped(sample.0), flipped(sample.1))];
-            // The weave is a texel high, which moves hardly anything at 32°.
+            let mut wrong = vec![((sample.0, turned(sample.1)), 0.1), ((flipped(sample.0), flipped(sample.1)), 0.1)];
+            // The weave is a texel high: parallax moves hardly anything at 32°, and at 65° two texels.
             if view[0] > 40.0 {
-                wrong.push((turned(sample.0), sample.1));
+                wrong.push(((turned(sample.0), sample.1), 0.02));
             }
-            for sample in wrong {
+            for (sample, least) in wrong {
                 let wrong = correlation(sample);
-                assert!(wrong < right - 0.1, "{set}, view {view:?}, light {light:?}: {right}, but {wrong} as {sample:?}");
+                assert!(wrong < right - least, "{set}, view {view:?}, light {light:?}: {right}, but {wrong} as {sample:?}");
             }
         }
     }
