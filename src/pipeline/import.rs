@@ -28,7 +28,7 @@ pub struct Imported {
 /// stored in blocks is read block by block with all samples. Writing works on all cores, as reading does.
 ///
 /// # Errors
-/// [`PipelineError::Io`] if the source cannot be read or the dataset not be written, or if another job on `target` is unfinished.
+/// [`PipelineError::Source`] if the source cannot be read or the dataset not be written, or if another job on `target` is unfinished.
 pub fn import(source: &dyn Source, target: &Path, memory: Memory, progress: &Progress) -> Result<Imported, PipelineError> {
     let btf = source.btf();
     let views = btf.views().len();
