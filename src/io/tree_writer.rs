@@ -165,7 +165,7 @@ fn encode(path: &Path, format: TreeFormat, [width, height]: [usize; 2], values: 
         let code = (255.0 * srgb_from_linear(held)).round() as u8;
         code
     };
-    let codes: Vec<u8> = (0..texels).flat_map(|texel| pixel(texel)).map(&mut code).collect();
+    let codes: Vec<u8> = (0..texels).flat_map(pixel).map(&mut code).collect();
     let size = [width, height].map(u32::try_from);
     let [Ok(width), Ok(height)] = size else { return Err(failed("more than 2^32 rows or columns".to_owned())) };
     let encoded: Result<(), ImageError> = match format {

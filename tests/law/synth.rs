@@ -288,6 +288,7 @@ fn pictures_are_those_of_a_path_tracer(gpu: &Gpu, data: &Path) {
         // The truth is in tile widths.
         let truth = Map::new(width, height, npy::read(&data.join(truth))).expect("has the same shape").map(|z| z * width as f64);
         let mean = truth.values().iter().sum::<f64>() / btf.texels() as f64;
+        let relief = truth.values().iter().fold(0.0, |high: f64, &z| high.max(z)) - truth.values().iter().fold(f64::INFINITY, |low, &z| low.min(z));
         let mut surface = white(truth.map(|z| z - mean));
         let measured = |view: [f64; 2], light: [f64; 2]| {
             let is = |direction: Direction, wanted: [f64; 2]| {
@@ -317,8 +318,8 @@ fn pictures_are_those_of_a_path_tracer(gpu: &Gpu, data: &Path) {
             let turned = |direction: Direction| Direction { phi: direction.phi + std::f64::consts::PI, ..direction };
             let flipped = |direction: Direction| Direction { phi: -direction.phi, ..direction };
             let mut wrong = vec![(sample.0, turned(sample.1)), (flipped(sample.0), flipped(sample.1))];
-            // The weave is a texel high, which moves hardly anything at 32°.
-            if view[0] > 40.0 {
+            // A relief that moves by less shows its parallax too little.
+            if relief * view[0].to_radians().tan() > 2.2 {
                 wrong.push((turned(sample.0), sample.1));
             }
             for sample in wrong {
