@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CliError, memory::MemoryArguments, output, say, session::SessionArguments};
+use super::{CliError, memory::MemoryArguments, output, reading::ReadingArguments, say, session::SessionArguments};
 use crate::{io, pipeline};
 
 /// Import a source into a dataset: one pass over its images, then quick to read in any part.
@@ -23,12 +23,14 @@ pub struct Import {
     output: PathBuf,
     #[command(flatten)]
     memory: MemoryArguments,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 impl Import {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         output::check_dataset(&self.output)?;
-        let source = io::open(&self.source)?;
+        let source = io::open_with(&self.source, &self.reading.options())?;
         let progress = session.on_host()?;
         let imported = pipeline::import(source.as_ref(), &self.output, self.memory.memory(None), &progress)?;
         let times = session.finish(progress)?;

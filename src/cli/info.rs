@@ -73,6 +73,8 @@ enum Content {
         highest: f32,
         /// How many texels' fits ended in which way.
         fit: BTreeMap<&'static str, usize>,
+        /// Samples that are no radiance and were left out, over all texels, of those that the fit was given.
+        masked: u64,
         provenance: Provenance,
         #[serde(serialize_with = "as_map")]
         conventions: &'static [Convention],
@@ -159,6 +161,7 @@ impl Content {
             lowest: heights.clone().fold(f32::INFINITY, f32::min),
             highest: heights.fold(f32::NEG_INFINITY, f32::max),
             fit: FitStatus::ALL.map(|status| (fit_end(status), texels(status))).into(),
+            masked: material.fit.masked.values().iter().copied().map(u64::from).sum(),
             provenance: material.provenance.clone(),
             conventions: conventions::MATERIAL,
         }
@@ -173,12 +176,13 @@ impl Content {
                 lines.measured(measured);
                 conventions
             }
-            Self::Material { width, height, lowest, highest, fit, provenance, conventions } => {
+            Self::Material { width, height, lowest, highest, fit, masked, provenance, conventions } => {
                 lines.add("material of", &provenance.source);
                 lines.add("texels", format!("{width} x {height}"));
                 lines.add("height", format!("{lowest:.3} to {highest:.3} texel widths"));
                 let ends: Vec<_> = fit.iter().filter(|(_, texels)| **texels > 0).map(|(end, texels)| format!("{texels} {end}")).collect();
                 lines.add("fit", ends.join(", "));
+                lines.add("masked", format!("{masked} samples that are no radiance"));
                 lines.measured(&Measured::of_provenance(provenance));
                 lines.add("adapter", &provenance.adapter);
                 lines.add("version", &provenance.version);

@@ -68,8 +68,9 @@ impl Archive {
         Ok(Self { path, names, store: Store::ZipBytes(bytes, metadata) })
     }
 
-    /// A text that is another when a name, a size or a time of modification is another.
-    pub(super) fn fingerprint(&self) -> String {
+    /// A text that is another when a name, a size or a time of modification of the given files is another. Other files do not count: a result may
+    /// be written beside its source.
+    pub(super) fn fingerprint(&self, files: &[usize]) -> String {
         let mut hash = crc32fast::Hasher::new();
         let mut add = |path: &Path| {
             if let Ok(metadata) = path.metadata() {
@@ -79,12 +80,12 @@ impl Archive {
             }
         };
         match &self.store {
-            Store::Folder => self.names.iter().for_each(|name| add(&self.path.join(name))),
+            Store::Folder => files.iter().for_each(|&file| add(&self.path.join(&self.names[file]))),
             Store::Zip(_) => add(&self.path),
             Store::ZipBytes(bytes, _) => hash.update(bytes),
         }
-        self.names.iter().for_each(|name| hash.update(name.as_bytes()));
-        format!("{} files, {:08x}", self.names.len(), hash.finalize())
+        files.iter().for_each(|&file| hash.update(self.names[file].as_bytes()));
+        format!("{} files, {:08x}", files.len(), hash.finalize())
     }
 
     /// Where it is.

@@ -134,6 +134,7 @@ impl Source for Images {
     }
 
     fn fingerprint(&self) -> String {
-        self.archive.fingerprint()
+        let mask: Vec<u8> = self.mask.iter().flatten().map(|&inside| u8::from(inside)).collect();
+        format!("{}, mask {:08x}", self.archive.fingerprint(&self.files), crc32fast::hash(&mask))
     }
 }

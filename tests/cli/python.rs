@@ -49,8 +49,8 @@ fn a_dataset_opens_in_zarr_and_xarray() {
          assert float(dataset.radiance[2, 5, 0, 29, 39]) == {:?}\n\
          assert set(dataset.coords) == {{'view_theta', 'view_phi', 'light_theta', 'light_phi'}}\n\
          assert abs(float(dataset.light_theta[5]) - 55) < 1e-9\n",
-        picture[(11, 7)][1],
-        picture[(39, 29)][0]
+        f64::from(picture[(11, 7)][1]),
+        f64::from(picture[(39, 29)][0])
     );
     let mut python = Command::new("python3");
     python.args(["-c", &(snippet("cloth-btf.zarr") + &checks)]).current_dir(folder.path());

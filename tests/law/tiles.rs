@@ -69,7 +69,7 @@ fn kept_tiles_are_taken_up(gpu: &Gpu) {
     assert!(!unfinished.is_resumed());
     assert!(whole == fitted(gpu, &source, memory(10, 20), Some(&unfinished)));
     let kept = unfinished.names().expect("is listed");
-    assert!(kept.len() > 10, "{kept:?}");
+    assert!(kept.len() >= 10, "{kept:?}");
     drop(unfinished);
 
     let hidden = folder.path().join(".speckle.zarr.unfinished");
@@ -85,8 +85,14 @@ fn kept_tiles_are_taken_up(gpu: &Gpu) {
     assert!(whole == fitted(gpu, &source, memory(7, 15), Some(&unfinished)));
 
     // What is kept is really used: a record with another lobe shows in the result.
-    let name = kept.iter().rfind(|name| name.starts_with("reflectance")).expect("is kept");
-    let mut bytes = unfinished.get(name).expect("is whole");
+    let kept = unfinished.names().expect("is listed");
+    // Of records of the same texels, the last counts.
+    let (name, mut bytes) = kept
+        .iter()
+        .rev()
+        .filter(|name| name.starts_with("reflectance"))
+        .find_map(|name| Some((name, unfinished.get(name)?)))
+        .expect("is kept");
     bytes[0] ^= 1;
     unfinished.put(name, &bytes).expect("is kept");
     assert!(whole != fitted(gpu, &source, memory(7, 15), Some(&unfinished)));

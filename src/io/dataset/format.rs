@@ -67,11 +67,6 @@ pub(super) fn radiance_attributes() -> Map<String, Value> {
     ])
 }
 
-/// Attributes of an array of angles.
-pub(super) fn angle_attributes() -> Map<String, Value> {
-    Map::from_iter([("unit".to_owned(), json!("degree"))])
-}
-
 /// θ or φ of directions in degrees, to a billionth: what an image's name says comes back bit by bit.
 pub(super) fn angles(btf: &Btf, name: &str) -> Vec<f64> {
     let directions = if name.starts_with("view") { btf.views() } else { btf.lights() };

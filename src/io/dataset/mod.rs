@@ -3,7 +3,7 @@
 //!
 //! `radiance` is `[view][light][channel][row][column]`; a chunk is one view, all its lights, all channels and one tile of texels. Where
 //! views have different lights the second axis counts each view's own, and `slot_light` says which they are. Chunks are compressed
-//! by Blosc (Zstandard after a shuffle of bytes) and end in a CRC-32C, which tells a damaged one. The values are those of the source, the
+//! by Blosc (LZ4 after a shuffle of bits) and end in a CRC-32C, which tells a damaged one. The values are those of the source, the
 //! ones that are no radiance (NaN, infinite, negative) included.
 //!
 //! The group's own metadata are written when all chunks are there, and the folder is then renamed into place, so that nothing looks

@@ -1,6 +1,9 @@
 //! Datasets, chunk by chunk.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use half::f16;
 use rayon::prelude::*;
@@ -41,22 +44,26 @@ impl DatasetWriter {
         let side = format::side(btf.pairs().len());
         let unfinished = Unfinished::begin(target, &job(btf, fingerprint, side))?;
         let failed = zarr_fault(target, format::RADIANCE);
-        std::fs::create_dir_all(unfinished.result()).map_err(|source| IoError::Write { path: target.to_owned(), source })?;
+        // Complete, it may have been moved already: then nothing must stand in its place again.
+        if !unfinished.is_complete() {
+            std::fs::create_dir_all(unfinished.result()).map_err(|source| IoError::Write { path: target.to_owned(), source })?;
+        }
         let store = Store::new(FilesystemStore::new(unfinished.result()).map_err(|error| failed(&error))?);
         let [width, height] = btf.size();
         let (views, slots) = (btf.views().len(), format::slots(btf));
         let sides = |views: usize, side: [usize; 2]| [views, slots, 3, side[0], side[1]].map(|count| count as u64);
         let shuffled = BloscCodec::new(
-            BloscCompressor::Zstd,
-            // The level matters less than the shuffle: 1 is the fastest.
+            // Of path-traced and synthetic images it leaves 0.77 at 700 MB/s a core and is read at 800 to 1100 MB/s; Zstandard of level 1 after
+            // a shuffle of bytes leaves 0.64 at 125 MB/s and 300 MB/s.
+            BloscCompressor::LZ4,
             1.try_into().map_err(|_| failed(&"no such level of compression"))?,
             None,
-            BloscShuffleMode::Shuffle,
+            BloscShuffleMode::BitShuffle,
             Some(size_of::<f16>()),
         );
         let shuffled = shuffled.map_err(|error| failed(&error))?;
         let radiance = ArrayBuilder::new(sides(views, [height, width]).to_vec(), sides(1, [side; 2]), "float16", FillValue::from(f16::NAN))
-            .bytes_to_bytes_codecs(vec![std::sync::Arc::new(shuffled), std::sync::Arc::new(Crc32cCodec::new())])
+            .bytes_to_bytes_codecs(vec![Arc::new(shuffled), Arc::new(Crc32cCodec::new())])
             .dimension_names(Some(format::dimensions(btf)))
             .attributes(format::radiance_attributes())
             .build(store.clone(), &format!("/{}", format::RADIANCE))
@@ -114,15 +121,10 @@ impl DatasetWriter {
         if !self.unfinished.is_complete() {
             for (name, dimension) in format::ANGLES {
                 let angles = format::angles(&self.btf, name);
-                self.small_array(
-                    name,
-                    &[dimension],
-                    vec![angles.len() as u64],
-                    "float64",
-                    f64::NAN.into(),
-                    format::angle_attributes(),
-                    angles,
-                )?;
+                let (shape, fill) = (vec![angles.len() as u64], FillValue::from(f64::NAN));
+                let about = "theta from the normal, phi counter-clockwise from +x";
+                let layout = Small { name, dimensions: &[dimension], shape, data_type: "float64", fill, unit: "degree", about };
+                self.small_array(&layout, &angles)?;
             }
             if !self.btf.is_product() {
                 let slots = format::slots(&self.btf);
@@ -130,10 +132,10 @@ impl DatasetWriter {
                 for ((view, slot), pair) in format::places(&self.btf).into_iter().zip(self.btf.pairs()) {
                     lights[view * slots + slot] = i32::try_from(pair.light).unwrap_or(format::NO_LIGHT);
                 }
-                let shape = vec![self.btf.views().len() as u64, slots as u64];
-                let attributes =
-                    serde_json::Map::from_iter([("description".to_owned(), json!("index of the light, -1 where there is none"))]);
-                self.small_array(format::SLOT_LIGHT, &["view", "slot"], shape, "int32", format::NO_LIGHT.into(), attributes, lights)?;
+                let (shape, fill) = (vec![self.btf.views().len() as u64, slots as u64], FillValue::from(format::NO_LIGHT));
+                let (name, about) = (format::SLOT_LIGHT, "index of the light, -1 where there is none");
+                let layout = Small { name, dimensions: &["view", "slot"], shape, data_type: "int32", fill, unit: "1", about };
+                self.small_array(&layout, &lights)?;
             }
             self.group()?;
         }
@@ -160,28 +162,37 @@ impl DatasetWriter {
         group.store_metadata().map_err(|error| failed(&error))
     }
 
-    /// An array of one chunk.
-    #[expect(clippy::too_many_arguments, reason = "what an array is made of")]
-    fn small_array<T: Element>(
-        &self, name: &'static str, dimensions: &[&str], shape: Vec<u64>, data_type: &str, fill: FillValue,
-        attributes: serde_json::Map<String, Value>, values: Vec<T>,
-    ) -> Result<(), IoError> {
-        let failed = zarr_fault(&self.target, name);
+    /// Writes an array of one chunk.
+    fn small_array<T: Element>(&self, layout: &Small<'_>, values: &[T]) -> Result<(), IoError> {
+        let failed = zarr_fault(&self.target, layout.name);
         let gzip = GzipCodec::new(1).map_err(|error| failed(&error))?;
-        let array = ArrayBuilder::new(shape.clone(), shape, data_type, fill)
-            .bytes_to_bytes_codecs(vec![std::sync::Arc::new(gzip)])
-            .dimension_names(Some(dimensions.iter().copied()))
+        let attributes =
+            serde_json::Map::from_iter([("unit".to_owned(), json!(layout.unit)), ("description".to_owned(), json!(layout.about))]);
+        let array = ArrayBuilder::new(layout.shape.clone(), layout.shape.clone(), layout.data_type, layout.fill.clone())
+            .bytes_to_bytes_codecs(vec![Arc::new(gzip)])
+            .dimension_names(Some(layout.dimensions.iter().copied()))
             .attributes(attributes)
-            .build(self.store.clone(), &format!("/{name}"))
+            .build(self.store.clone(), &format!("/{}", layout.name))
             .map_err(|error| failed(&error))?;
         array.store_metadata().map_err(|error| failed(&error))?;
         let every_chunk = CodecOptions::default().with_store_empty_chunks(true);
-        array.store_array_subset_opt(&array.subset_all(), values.as_slice(), &every_chunk).map_err(|error| failed(&error))
+        array.store_array_subset_opt(&array.subset_all(), values, &every_chunk).map_err(|error| failed(&error))
     }
 
     fn chunk(&self, view: usize, tile: Block) -> [u64; 5] {
         [view, 0, 0, tile.row / self.side, tile.column / self.side].map(|index| index as u64)
     }
+}
+
+/// An array of one chunk.
+struct Small<'a> {
+    name: &'static str,
+    dimensions: &'a [&'a str],
+    shape: Vec<u64>,
+    data_type: &'a str,
+    fill: FillValue,
+    unit: &'a str,
+    about: &'a str,
 }
 
 /// All that the dataset's bytes depend on.
