@@ -6,7 +6,7 @@ use clap::Args;
 use crate::pipeline::Memory;
 
 /// The least that makes sense: below it, a single texel of a large dataset may not fit.
-const LEAST: ByteSize = ByteSize::mib(16);
+const LEAST: ByteSize = ByteSize::mib(1);
 
 /// Bounds of a job's memory.
 #[derive(Debug, Clone, Copy, Args)]

@@ -100,7 +100,7 @@ fn a_killed_import_is_ended_by_the_next() {
 fn a_killed_fit_is_ended_by_the_next(gpu: &Gpu) {
     let folder = tempfile::tempdir().expect("is made");
     write_tree(&folder.path().join("tree"), 64);
-    // Some 16 tiles.
-    let arguments = ["fit", "tree", "--vram", "16MiB", "--memory", "16MiB", "--adapter", &gpu.adapter().name];
+    // The normals in two tiles, the reflectance in three blocks of 22 rows at most, two tiles each.
+    let arguments = ["fit", "tree", "--vram", "1MiB", "--memory", "1MiB", "--adapter", &gpu.adapter().name];
     kill_and_run_again(folder.path(), &arguments, 4);
 }
