@@ -10,7 +10,8 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// On the adapter: larger tiles gain nothing.
+    /// On the adapter, by default: what nearly all have. With thousands of samples a texel it holds some ten thousand texels, which fills a
+    /// small adapter; a large one is filled by more.
     pub const ADAPTER: u64 = 1 << 30;
 
     /// Half of the host's memory that is free, or that its control group leaves, and [`Self::ADAPTER`].

@@ -20,8 +20,9 @@ use crate::{
 /// that the driver makes of them, and radiance; later radiance, reflectance and its residual, which are fewer.
 const COPIES: usize = 3;
 
-/// Tiles beyond this gain nothing, and progress is seen and kept less often.
-const MAX_TILE_TEXELS: usize = 1 << 14;
+/// Threads that the largest adapters run at once, a texel each. Beyond it progress is seen and kept less often for nothing, and the list of
+/// texels whose fit still runs, which one workgroup makes, takes its time.
+const MAX_TILE_TEXELS: usize = 1 << 17;
 
 /// What is common to all tiles of a job.
 #[derive(Clone, Copy)]

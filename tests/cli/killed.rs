@@ -2,7 +2,7 @@
 
 use std::{
     fs,
-    path::{Path, PathBuf},
+    path::Path,
     process::Stdio,
     thread,
     time::Instant,
@@ -12,7 +12,7 @@ use image::RgbImage;
 use overpaint::gpu::Gpu;
 
 use super::{command, overpaint};
-use crate::support::random::Random;
+use crate::support::{files::files, random::Random};
 
 crate::suite! { plain: a_killed_import_is_ended_by_the_next; gpu: a_killed_fit_is_ended_by_the_next; }
 
@@ -32,25 +32,6 @@ fn write_tree(folder: &Path, side: u32) {
                 .expect("is written");
         }
     }
-}
-
-/// All files of a folder with their contents.
-fn files(path: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut found = Vec::new();
-    let mut folders = vec![path.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("is there") {
-            let entry = entry.expect("is readable").path();
-            if entry.is_dir() {
-                folders.push(entry);
-            } else {
-                let bytes = fs::read(&entry).expect("is readable");
-                found.push((entry.strip_prefix(path).expect("is below").to_owned(), bytes));
-            }
-        }
-    }
-    found.sort();
-    found
 }
 
 /// Runs the job until it has been killed often enough, from anew whenever it ends before that, then to its end; whatever stands under the

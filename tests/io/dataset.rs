@@ -12,7 +12,10 @@ use overpaint::{
 };
 use tempfile::TempDir;
 
-use crate::support::speckle::{Speckle, bits};
+use crate::support::{
+    files::files,
+    speckle::{Speckle, bits},
+};
 
 crate::suite! { plain:
     everything_comes_back,
@@ -48,25 +51,6 @@ fn made(source: &dyn Source) -> (TempDir, PathBuf) {
     assert_eq!((done.chunks, done.kept), (5 * 4, 0));
     assert!(done.invalid > 100, "{done:?}");
     (folder, path)
-}
-
-/// All files of a folder with their contents.
-fn files(path: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut found = Vec::new();
-    let mut folders = vec![path.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("is there") {
-            let entry = entry.expect("is readable").path();
-            if entry.is_dir() {
-                folders.push(entry);
-            } else {
-                let bytes = fs::read(&entry).expect("is readable");
-                found.push((entry.strip_prefix(path).expect("is below").to_owned(), bytes));
-            }
-        }
-    }
-    found.sort();
-    found
 }
 
 fn everything_comes_back() {

@@ -1,5 +1,6 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
+pub mod files;
 pub mod known;
 pub mod npy;
 pub mod probe;
