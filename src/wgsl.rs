@@ -31,6 +31,8 @@ sources! {
     GATHER = "kernels" "gather";
     /// One layer of paint over diffuse reflectance.
     KUBELKA_MUNK = "kernels" "kubelka_munk";
+    /// A height field and how it is looked at.
+    HEIGHT_FIELD = "kernels/common" "height_field";
     /// Rays against a periodic height field, exactly.
     HEIGHT_MARCH = "kernels/common" "height_march";
     /// The Lafortune lobe.
@@ -73,6 +75,8 @@ sources! {
     RELIEF = "kernels/common" "relief";
     /// Radiance that leaves a place of the base plane.
     SHADE = "kernels/common" "shade";
+    /// The frame of a normal.
+    SHADING_FRAME = "kernels/common" "shading_frame";
     /// Slopes of normals.
     SLOPES = "kernels" "slopes";
     /// Sums of rows of slopes.

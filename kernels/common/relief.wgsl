@@ -2,7 +2,7 @@
 // (Tatarchuk 2006). Places are in texels: x = column, y = row (downwards), texel centres at whole numbers.
 // Twin: reference::relief, exact crossings with the bilinear patches.
 #import boundary
-#import surface
+#import height_field
 
 // A step of the search covers at most this many texels, so that a crossing is missed only where the ray enters and leaves the
 // surface within it.
@@ -64,12 +64,20 @@ fn march_steps(texels: f32) -> u32 {
     return u32(clamp(ceil(texels / STEP), 1.0, f32(MAX_STEPS)));
 }
 
-// Where the view ray through `base` (a place on z = 0) first meets the surface.
-fn first_hit(base: vec2<f32>) -> Hit {
+// Unit normal at a place: bilinear between those of its texels.
+fn normal_at(place: vec2<f32>) -> vec3<f32> {
+    let cell = cell_at(place);
+    let upper = mix(normals[cell.texels.x], normals[cell.texels.y], cell.fraction.x);
+    let lower = mix(normals[cell.texels.z], normals[cell.texels.w], cell.fraction.x);
+    return normalize(mix(upper, lower, cell.fraction.y).xyz);
+}
+
+// Where the ray from `view` through `base` (a place on z = 0) first meets the surface.
+fn first_hit(base: vec2<f32>, view: vec3<f32>) -> Hit {
     if scene.displace == 0u {
         return Hit(base, height_at(base));
     }
-    let run = run_of(scene.view.xyz);
+    let run = run_of(view);
     let depth = scene.highest - scene.lowest;
     let steps = march_steps(depth * length(run));
     // The ray is above the surface at height `above`, and on or below it at `below`.
@@ -100,18 +108,18 @@ fn first_hit(base: vec2<f32>) -> Hit {
     return Hit(place, height_at(place));
 }
 
-// Share of the light that a hit sees. A blocker that stands e above the ray at path length d covers e/(d tan(width)) of a light
+// Share of a light that a hit sees. A blocker that stands e above the ray at path length d covers e/(d tan(width)) of a light
 // of that angular width; the largest cover counts (Tatarchuk 2006: heights above the ray, weighted by nearness). Between two
 // grid lines the surface hardly bends, so the cover is largest where the ray crosses one: crossings are where it is looked up,
 // which moves with the hit and leaves no steps in the edge of a shadow.
-fn visibility(hit: Hit) -> f32 {
-    if scene.light.z < MIN_COSINE {
+fn visibility(hit: Hit, light: vec3<f32>) -> f32 {
+    if light.z < MIN_COSINE {
         return 0.0;
     }
     if scene.shadow == 0u {
         return 1.0;
     }
-    let run = run_of(scene.light.xyz);
+    let run = run_of(light);
     let rise = scene.highest - hit.height;
     // Height that the ray gains from one column, one row to the next; a light at the zenith crosses none.
     let apart = 1.0 / max(abs(run), vec2(1e-6));
@@ -124,7 +132,7 @@ fn visibility(hit: Hit) -> f32 {
     // Nothing stands above the ray where it has gained the highest place.
     for (var crossing = 0u; crossing < MAX_STEPS && gained < rise && cover < 1.0; crossing++) {
         let excess = height_at(hit.place + gained * run) - (hit.height + gained) - BIAS;
-        cover = max(cover, excess * scene.light.z / (gained * scene.penumbra));
+        cover = max(cover, excess * light.z / (gained * scene.penumbra));
         gained = min(next.x, next.y);
         next += select(vec2(0.0), apart, next <= vec2(gained));
     }

@@ -3,11 +3,22 @@
 #import lafortune
 #import microfacet
 #import relief
+#import shading_frame
+#import surface
 
-// The measured reflectance, fitted in the base plane's frame: its cosine is that plane's too.
-fn unpainted_radiance(texel: u32) -> vec3<f32> {
-    let lobe = lafortune(lobes[texel], scene.view.xyz * scene.light.xyz);
-    return (diffuse[texel].rgb + specular[texel].rgb * lobe) * scene.light.z;
+// Frames of the unpainted reflectance (model::Frame).
+const FRAME_PLANE: u32 = 0u;
+const FRAME_TEXEL: u32 = 1u;
+
+// The measured reflectance where its frame has the given normal.
+fn unpainted_radiance(texel: u32, normal: vec3<f32>) -> vec3<f32> {
+    let product = product_in_frame(normal, scene.view.xyz, scene.light.xyz);
+    var reflectance = diffuse[texel].rgb;
+    for (var lobe = 0u; lobe < scene.lobes; lobe++) {
+        let at = lobe * scene.width * scene.height + texel;
+        reflectance += specular[at].rgb * lafortune(lobes[at], product);
+    }
+    return reflectance * max(dot(normal, scene.light.xyz), 0.0);
 }
 
 // Kubelka-Munk diffuse below a coat: of the light 1 - F enters and leaves at the angles of light and view, divided by the mean
@@ -24,39 +35,50 @@ fn painted_radiance(texel: u32) -> vec3<f32> {
     return entering * painted[texel].rgb * cos_light + ggx_specular(normal, view, light, scene.roughness, scene.f0);
 }
 
-// One texel's radiance in full light, unpainted and painted mixed by coverage.
-fn texel_radiance(texel: u32) -> vec3<f32> {
-    let coverage = painted[texel].w;
-    var radiance = vec3(0.0);
-    if coverage < 1.0 {
-        radiance += (1.0 - coverage) * unpainted_radiance(texel);
-    }
-    if coverage > 0.0 {
-        radiance += coverage * painted_radiance(texel);
-    }
-    return radiance;
+fn weights_of(cell: Cell) -> vec4<f32> {
+    let right = cell.fraction.x;
+    let lower = cell.fraction.y;
+    return vec4((1.0 - right) * (1.0 - lower), right * (1.0 - lower), (1.0 - right) * lower, right * lower);
 }
 
-// Radiance of the view ray through `base`: bilinear between the four texels around its hit, times the share of
-// the light seen there.
+// Radiance of the view ray through `base`: bilinear between four texels, times the share of the light seen there, unpainted and
+// painted mixed by coverage. Paint is where the ray meets the surface. Unpainted reflectance that was fitted in a frame of its own
+// is that of the base plane's place, as a measurement has it: seen obliquely, the same place shows another point of the
+// surface, whose normal is the frame's.
 fn radiance_at(base: vec2<f32>) -> vec3<f32> {
     if scene.view.z < MIN_COSINE {
         return vec3(0.0);
     }
-    let hit = first_hit(base);
-    let visible = visibility(hit);
-    if visible == 0.0 {
-        return vec3(0.0);
-    }
+    let hit = first_hit(base, scene.view.xyz);
+    let visible = visibility(hit, scene.light.xyz);
     let cell = cell_at(hit.place);
-    let right = cell.fraction.x;
-    let lower = cell.fraction.y;
-    let weights = vec4((1.0 - right) * (1.0 - lower), right * (1.0 - lower), (1.0 - right) * lower, right * lower);
+    let weights = weights_of(cell);
     var radiance = vec3(0.0);
+    var bare = 0.0;
     for (var corner = 0u; corner < 4u; corner++) {
-        if weights[corner] > 0.0 {
-            radiance += weights[corner] * texel_radiance(cell.texels[corner]);
+        let texel = cell.texels[corner];
+        let coverage = painted[texel].w * weights[corner];
+        bare += weights[corner] - coverage;
+        if coverage > 0.0 {
+            radiance += visible * coverage * painted_radiance(texel);
+        }
+        if scene.frame == FRAME_PLANE && weights[corner] > coverage {
+            radiance += visible * (weights[corner] - coverage) * unpainted_radiance(texel, vec3(0.0, 0.0, 1.0));
         }
     }
-    return visible * radiance;
+    if scene.frame == FRAME_PLANE || bare == 0.0 || scene.light.z < MIN_COSINE {
+        return radiance;
+    }
+    let place = select(hit.place, base, scene.frame == FRAME_TEXEL);
+    let normal = normal_at(place);
+    // Shadows that no frame tells are in the measured reflectance.
+    let seen = select(visible, 1.0, scene.frame == FRAME_TEXEL);
+    let own = cell_at(base);
+    let own_weights = weights_of(own);
+    for (var corner = 0u; corner < 4u; corner++) {
+        if own_weights[corner] > 0.0 {
+            radiance += bare * seen * own_weights[corner] * unpainted_radiance(own.texels[corner], normal);
+        }
+    }
+    return radiance;
 }

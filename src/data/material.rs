@@ -1,17 +1,29 @@
 //! What is recovered from a BTF: geometry and per-texel reflectance.
 
 use super::{Direction, Encoding, Map, ShapeError};
-use crate::model::FitSettings;
+use crate::model::{FitSettings, Frame};
 
-/// Per-texel reflectance f_r = ρ_d + ρ_s·(C·ω_i ω_o)^n, in π·f_r units (Lafortune et al. 1997; thesis eq. 3.3).
+/// Most lobes of a texel.
+pub const MAX_LOBES: usize = 3;
+
+/// One lobe of every texel.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Svbrdf {
-    /// ρ_d per channel.
-    pub diffuse: Map<[f32; 3]>,
+pub struct Lobe {
     /// ρ_s per channel.
     pub specular: Map<[f32; 3]>,
     /// (C_x, C_y, C_z, n); the lobe's scale lives in C.
-    pub lobe: Map<[f32; 4]>,
+    pub parameters: Map<[f32; 4]>,
+}
+
+/// Per-texel reflectance f_r = ρ_d + Σ ρ_s·(C·ω_i ω_o)^n, in π·f_r units (Lafortune et al. 1997; thesis eq. 3.3).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Svbrdf {
+    /// The frame that cosine and lobes are in.
+    pub frame: Frame,
+    /// ρ_d per channel.
+    pub diffuse: Map<[f32; 3]>,
+    /// The lobes, 1 to [`MAX_LOBES`].
+    pub lobes: Vec<Lobe>,
 }
 
 /// How a texel's fit ended.
@@ -135,9 +147,17 @@ impl Material {
             normal_measured: self.normal_measured.repeated(columns, rows),
             albedo: self.albedo.repeated(columns, rows),
             svbrdf: Svbrdf {
+                frame: self.svbrdf.frame,
                 diffuse: self.svbrdf.diffuse.repeated(columns, rows),
-                specular: self.svbrdf.specular.repeated(columns, rows),
-                lobe: self.svbrdf.lobe.repeated(columns, rows),
+                lobes: self
+                    .svbrdf
+                    .lobes
+                    .iter()
+                    .map(|lobe| Lobe {
+                        specular: lobe.specular.repeated(columns, rows),
+                        parameters: lobe.parameters.repeated(columns, rows),
+                    })
+                    .collect(),
             },
             fit: Fit {
                 objective_without_lobe: self.fit.objective_without_lobe.repeated(columns, rows),
@@ -161,15 +181,18 @@ impl Material {
             (self.normal_measured.width(), self.normal_measured.height()),
             (self.albedo.width(), self.albedo.height()),
             (self.svbrdf.diffuse.width(), self.svbrdf.diffuse.height()),
-            (self.svbrdf.specular.width(), self.svbrdf.specular.height()),
-            (self.svbrdf.lobe.width(), self.svbrdf.lobe.height()),
             (self.fit.objective_without_lobe.width(), self.fit.objective_without_lobe.height()),
             (self.fit.objective.width(), self.fit.objective.height()),
             (self.fit.iterations.width(), self.fit.iterations.height()),
             (self.fit.status.width(), self.fit.status.height()),
             (self.fit.masked.width(), self.fit.masked.height()),
         ];
-        match shapes.into_iter().find(|&shape| shape != (width, height)) {
+        let of_lobes = self
+            .svbrdf
+            .lobes
+            .iter()
+            .flat_map(|lobe| [(lobe.specular.width(), lobe.specular.height()), (lobe.parameters.width(), lobe.parameters.height())]);
+        match shapes.into_iter().chain(of_lobes).find(|&shape| shape != (width, height)) {
             Some((w, h)) => Err(ShapeError { width, height, expected: width * height, found: w * h }),
             None => Ok(self),
         }

@@ -17,6 +17,6 @@ pub use direction::Direction;
 pub use encoding::{Encoding, RowOrder, Transfer, radiance_half};
 pub use grid::{Grid, GridError};
 pub use map::{Map, ShapeError};
-pub use material::{Fit, FitStatus, Material, Provenance, Svbrdf};
+pub use material::{Fit, FitStatus, Lobe, MAX_LOBES, Material, Provenance, Svbrdf};
 pub use plane_view::PlaneView;
 pub use samples::{OCTET, Samples};

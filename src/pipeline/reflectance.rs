@@ -7,8 +7,8 @@ use super::{
     tiles::{Job, run},
 };
 use crate::{
-    data::{Fit, Map, Samples, Svbrdf},
-    model::FitSettings,
+    data::{Fit, Lobe, Map, Samples, Svbrdf},
+    model::{FitSettings, Frame},
     stage,
 };
 
@@ -62,9 +62,9 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<(Svbrdf, 
     let texels = Map::new(width, height, texels)?;
     let rgb = |[r, g, b, _]: [f32; 4]| [r, g, b];
     let svbrdf = Svbrdf {
+        frame: Frame::Plane,
         diffuse: texels.map(|texel| rgb(texel.diffuse)),
-        specular: texels.map(|texel| rgb(texel.specular)),
-        lobe: texels.map(|texel| texel.lobe),
+        lobes: vec![Lobe { specular: texels.map(|texel| rgb(texel.specular)), parameters: texels.map(|texel| texel.lobe) }],
     };
     let fit = Fit {
         objective_without_lobe: texels.map(|texel| texel.objectives[0]),

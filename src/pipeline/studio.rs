@@ -6,7 +6,7 @@ use crate::{
     gpu::{Buffer, Gpu},
     model::{Coat, Layer, Pattern, Relief},
     render::Plane,
-    stage::{self, Surface},
+    stage::{self, HeightField, Surface},
 };
 
 /// A layer of paint and where it is drawn.
@@ -77,17 +77,17 @@ impl<'g> Studio<'g> {
             }
         };
         let normals = run(gpu, progress, "normals", [texels, 1], |recorder| self.normals.record(recorder, &heights, size, boundary))?;
-        let height_range = heights.read(gpu)?.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)]);
+        let range = heights.read(gpu)?.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)]);
+        let lobes = &material.svbrdf.lobes;
+        let specular: Vec<_> = lobes.iter().flat_map(|lobe| lobe.specular.values()).map(|&[r, g, b]| [r, g, b, 0.0]).collect();
+        let parameters: Vec<_> = lobes.iter().flat_map(|lobe| lobe.parameters.values()).copied().collect();
         Ok(Surface {
-            size,
-            heights,
-            normals,
+            field: HeightField { size, heights, normals, range, boundary },
+            frame: material.svbrdf.frame,
             diffuse,
-            specular: upload_rgb(gpu, "specular", &material.svbrdf.specular)?,
-            lobe: gpu.upload("lobe", material.svbrdf.lobe.values())?,
+            specular: gpu.upload("specular", &specular)?,
+            lobes: gpu.upload("lobes", &parameters)?,
             painted,
-            height_range,
-            boundary,
             coat,
         })
     }
@@ -100,7 +100,7 @@ impl<'g> Studio<'g> {
     pub fn reconstruct(
         &self, surface: &Surface, view: Direction, light: Direction, relief: Relief, progress: &Progress,
     ) -> Result<Map<[f32; 4]>, PipelineError> {
-        let [width, height] = surface.size.map(|texels| texels as usize);
+        let [width, height] = surface.field.size.map(|texels| texels as usize);
         let picture = run(self.gpu, progress, "reconstruct", [width * height, 1], |recorder| {
             self.reconstruct.record(recorder, surface, view, light, relief)
         })?;

@@ -5,10 +5,10 @@ use rayon::prelude::*;
 
 use super::{PipelineError, Progress, tiles::run};
 use crate::{
-    data::{Block, Btf, Direction, Encoding, Fit, FitStatus, Map, Material, Pair, Provenance, Svbrdf, Transfer},
+    data::{Block, Btf, Direction, Encoding, Fit, FitStatus, Lobe, Map, Material, Pair, Provenance, Svbrdf, Transfer},
     gpu::Gpu,
     io::{IoError, Source},
-    model::{Boundary, FitSettings, Synth, SynthPlace, SynthTexel},
+    model::{Boundary, FitSettings, Frame, Synth, SynthPlace, SynthTexel},
     stage::{self, SynthSurface},
 };
 
@@ -58,10 +58,14 @@ impl<'g> Synthetic<'g> {
 
         let rgb = |channels: fn(&SynthTexel) -> [f64; 3]| texels.iter().map(|texel| channels(texel).map(stage::single)).collect();
         let svbrdf = Svbrdf {
+            frame: Frame::Seen,
             diffuse: Map::new(width, height, rgb(|texel| texel.diffuse))?,
-            specular: Map::new(width, height, rgb(|texel| texel.specular))?,
-            lobe: Map::new(width, height, texels.iter().map(|texel| texel.lobe.map(stage::single)).collect())?,
+            lobes: vec![Lobe {
+                specular: Map::new(width, height, rgb(|texel| texel.specular))?,
+                parameters: Map::new(width, height, texels.iter().map(|texel| texel.lobe.map(stage::single)).collect())?,
+            }],
         };
+        let lobe = &svbrdf.lobes[0];
         let upload = |label: &str, map: &Map<[f32; 3]>| {
             let values: Vec<[f32; 4]> = map.values().iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect();
             gpu.upload(label, &values)
@@ -77,8 +81,8 @@ impl<'g> Synthetic<'g> {
             size: plane,
             heights: on_adapter,
             diffuse: upload("diffuse", &svbrdf.diffuse)?,
-            specular: upload("specular", &svbrdf.specular)?,
-            lobe: gpu.upload("lobe", svbrdf.lobe.values())?,
+            specular: upload("specular", &lobe.specular)?,
+            lobe: gpu.upload("lobe", lobe.parameters.values())?,
             height_range: range,
             normals,
         };
@@ -111,7 +115,7 @@ impl<'g> Synthetic<'g> {
                 objective: self.heights.map(|_| 0.0),
                 masked: self.heights.map(|_| 0),
                 iterations: self.heights.map(|_| 0),
-                status: self.svbrdf.specular.map(|specular| status(specular) as u32),
+                status: self.svbrdf.lobes[0].specular.map(|specular| status(specular) as u32),
             },
             provenance: Provenance {
                 source: format!("{}: synthetic truth of {}, lobes in each texel's own frame", self.btf.name(), self.recipe),

@@ -6,8 +6,9 @@ use super::relief::HeightField;
 use crate::{
     data::{Direction, Map},
     model::{
-        Boundary, Coat, Relief, lafortune,
+        Boundary, Coat, Frame, Relief, lafortune,
         microfacet::{ggx_specular, schlick},
+        product_in_frame,
     },
 };
 
@@ -20,10 +21,10 @@ pub struct Surface {
     pub normals: Map<[f64; 3]>,
     /// ρ_d of the unpainted material.
     pub diffuse: Map<[f64; 3]>,
-    /// ρ_s of the unpainted material.
-    pub specular: Map<[f64; 3]>,
-    /// (C_x, C_y, C_z, n).
-    pub lobe: Map<[f64; 4]>,
+    /// The frame that the unpainted material's reflectance is in.
+    pub frame: Frame,
+    /// ρ_s and (C_x, C_y, C_z, n) of each lobe of the unpainted material.
+    pub lobes: Vec<(Map<[f64; 3]>, Map<[f64; 4]>)>,
     /// Kubelka-Munk reflectance; the fourth value is how much of the texel is painted.
     pub painted: Map<[f64; 4]>,
     /// What stands beyond the edge.
@@ -50,21 +51,41 @@ impl Surface {
         let (place, height) = if relief.displace { field.first_hit(base, view) } else { (base, field.at(base)) };
         let visible = if relief.shadow { field.seen_share(place, height, light, relief.penumbra) } else { 1.0 };
         let mut radiance = [0.0; 3];
-        for (texel, weight) in field.corners(place) {
-            let coverage = self.painted[texel][3];
-            let unpainted = self.unpainted(texel, view, light);
-            let painted = self.painted(texel, view, light);
-            for channel in 0..3 {
-                radiance[channel] += weight * visible * ((1.0 - coverage) * unpainted[channel] + coverage * painted[channel]);
+        let mut add = |weight: f64, colour: [f64; 3]| (0..3).for_each(|channel| radiance[channel] += weight * colour[channel]);
+        let at_hit = field.corners(place);
+        for (texel, weight) in at_hit {
+            add(weight * visible * self.painted[texel][3], self.painted(texel, view, light));
+        }
+        // Of a flat surface the reflectance moves with the relief; in a frame of its own it belongs to the place on the base plane.
+        let coverage =
+            |corners: &[((usize, usize), f64)]| corners.iter().map(|&(texel, weight)| weight * self.painted[texel][3]).sum::<f64>();
+        let normal_at = |corners: &[((usize, usize), f64)]| {
+            corners.iter().map(|&(texel, weight)| weight * DVec3::from_array(self.normals[texel])).sum::<DVec3>().normalize()
+        };
+        let at_base = field.corners(base);
+        match self.frame {
+            Frame::Plane => {
+                for (texel, weight) in at_hit {
+                    add(weight * visible * (1.0 - self.painted[texel][3]), self.unpainted(texel, DVec3::Z, view, light));
+                }
+            }
+            Frame::Texel | Frame::Seen => {
+                let (normal, seen) = if self.frame == Frame::Seen { (normal_at(&at_hit), visible) } else { (normal_at(&at_base), 1.0) };
+                for (texel, weight) in at_base {
+                    add(weight * seen * (1.0 - coverage(&at_hit)), self.unpainted(texel, normal, view, light));
+                }
             }
         }
         radiance
     }
 
-    /// Lafortune et al. 1997, thesis eq. 3.3, times cos θ_i of the base plane.
-    fn unpainted(&self, texel: (usize, usize), view: DVec3, light: DVec3) -> [f64; 3] {
-        let lobe = lafortune(self.lobe[texel], (view * light).to_array());
-        std::array::from_fn(|channel| (self.diffuse[texel][channel] + self.specular[texel][channel] * lobe) * light.z)
+    /// Lafortune et al. 1997, thesis eq. 3.3, times cos θ_i, in the frame of `normal`.
+    fn unpainted(&self, texel: (usize, usize), normal: DVec3, view: DVec3, light: DVec3) -> [f64; 3] {
+        let product = product_in_frame(normal, view, light);
+        std::array::from_fn(|channel| {
+            let of_lobe = |(specular, lobe): &(Map<[f64; 3]>, Map<[f64; 4]>)| specular[texel][channel] * lafortune(lobe[texel], product);
+            (self.diffuse[texel][channel] + self.lobes.iter().map(of_lobe).sum::<f64>()) * normal.dot(light).max(0.0)
+        })
     }
 
     /// Kubelka-Munk diffuse (1 − F(θ_i))(1 − F(θ_o))ρ/(1 − F̄) with Schlick's F (Kelemen, Szirmay-Kalos 2001), normals turned from

@@ -43,7 +43,7 @@ impl Plane {
     /// # Errors
     /// [`GpuError`] if the driver refuses it.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let mut resources = Surface::resources().to_vec();
+        let mut resources = Surface::resources();
         resources.push(Resource::uniform::<Camera>("camera"));
         Ok(Self { raster: Raster::new(gpu, &wgsl::PLANE, wgsl::ALL, &resources)? })
     }
@@ -57,8 +57,8 @@ impl Plane {
         let gpu = recorder.gpu();
         let target = Target::new(gpu, shot.size[0], shot.size[1])?;
         let scene = surface.scene(gpu, shot.view, shot.light, relief)?;
-        let camera: Buffer<Camera> = gpu.uniform("camera", &camera(surface.size, shot))?;
-        let mut binds = surface.binds(&scene).to_vec();
+        let camera: Buffer<Camera> = gpu.uniform("camera", &camera(surface.field.size, shot))?;
+        let mut binds = surface.binds(&scene);
         binds.push(bind("camera", &camera));
         let vertices = if shot.view.vector().z < MIN_COSINE { 0 } else { 6 };
         recorder.draw(&self.raster, &binds, vertices, &target);

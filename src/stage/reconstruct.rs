@@ -25,7 +25,7 @@ impl Reconstruct {
     /// # Errors
     /// [`GpuError`] if the driver refuses it.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let mut resources = Surface::resources().to_vec();
+        let mut resources = Surface::resources();
         resources.push(Resource::read_write::<[f32; 4]>("picture"));
         Ok(Self { kernel: Kernel::new(gpu, &wgsl::RECONSTRUCT, wgsl::ALL, &resources)? })
     }
@@ -37,12 +37,12 @@ impl Reconstruct {
     pub fn record(
         &self, recorder: &mut Recorder<'_>, surface: &Surface, view: Direction, light: Direction, relief: Relief,
     ) -> Result<Buffer<[f32; 4]>, GpuError> {
-        let [width, height] = surface.size;
+        let [width, height] = surface.field.size;
         let texels = width as usize * height as usize;
         let gpu = recorder.gpu();
         let scene = surface.scene(gpu, view, light, relief)?;
         let picture = gpu.fresh("reconstructed picture", texels)?;
-        let mut binds = surface.binds(&scene).to_vec();
+        let mut binds = surface.binds(&scene);
         binds.push(bind("picture", &picture));
         recorder.dispatch(&self.kernel, &binds, Grid::threads(texels))?;
         Ok(picture)

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use overpaint::{
-    data::{Direction, Encoding, Fit, FitStatus, Map, Material, Provenance, Svbrdf, Transfer},
+    data::{Direction, Encoding, Fit, FitStatus, Lobe, MAX_LOBES, Map, Material, Provenance, Svbrdf, Transfer},
     io::{self, Kind, material},
-    model::FitSettings,
+    model::{FitSettings, Frame},
 };
 use tempfile::TempDir;
 
@@ -35,10 +35,15 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
         normal_measured: Map::from_fn(width, height, |_, _| [value(), value(), value()]),
         albedo: Map::from_fn(width, height, |_, _| value()),
         svbrdf: Svbrdf {
+            frame: Frame::Seen,
             diffuse: Map::from_fn(width, height, |_, _| [value(), value(), value()]),
-            // A plane that is all one value is stored as well.
-            specular: Map::from_fn(width, height, |_, _| [0.0; 3]),
-            lobe: Map::from_fn(width, height, |_, _| [value(), value(), value(), value()]),
+            lobes: (0..1 + width % MAX_LOBES)
+                .map(|_| Lobe {
+                    // A plane that is all one value is stored as well.
+                    specular: Map::from_fn(width, height, |_, _| [0.0; 3]),
+                    parameters: Map::from_fn(width, height, |_, _| [value(), value(), value(), value()]),
+                })
+                .collect(),
         },
         fit: Fit {
             objective_without_lobe: Map::from_fn(width, height, |_, _| value()),
@@ -70,14 +75,13 @@ fn bits(material: &Material) -> Vec<u32> {
         normal_measured.values().as_flattened(),
         albedo.values(),
         svbrdf.diffuse.values().as_flattened(),
-        svbrdf.specular.values().as_flattened(),
-        svbrdf.lobe.values().as_flattened(),
         fit.objective_without_lobe.values(),
         fit.objective.values(),
     ];
     floats
         .concat()
         .into_iter()
+        .chain(svbrdf.lobes.iter().flat_map(|lobe| [lobe.specular.values().as_flattened(), lobe.parameters.values().as_flattened()].concat()))
         .map(f32::to_bits)
         .chain([fit.iterations.values(), fit.status.values(), fit.masked.values()].concat())
         .collect()

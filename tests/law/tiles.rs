@@ -21,10 +21,10 @@ fn fitted(gpu: &Gpu, source: &dyn Source, memory: Memory, unfinished: Option<&Un
     let material = fit_within(gpu, source, &FitSettings::default(), memory, unfinished, &progress).expect("fits");
     let svbrdf = material.svbrdf;
     let mut bits: Vec<u32> = material.height.values().iter().map(|z| z.to_bits()).collect();
-    for map in [&svbrdf.diffuse, &svbrdf.specular, &material.normal_measured] {
+    for map in [&svbrdf.diffuse, &svbrdf.lobes[0].specular, &material.normal_measured] {
         bits.extend(map.values().iter().flatten().map(|value| value.to_bits()));
     }
-    bits.extend(svbrdf.lobe.values().iter().flatten().map(|value| value.to_bits()));
+    bits.extend(svbrdf.lobes[0].parameters.values().iter().flatten().map(|value| value.to_bits()));
     bits.extend(material.fit.iterations.values());
     bits
 }

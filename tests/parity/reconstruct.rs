@@ -1,7 +1,7 @@
 use overpaint::{
     data::{Direction, Map},
     gpu::Gpu,
-    model::{Boundary, Relief},
+    model::{Boundary, Frame, Relief},
     reference,
 };
 
@@ -23,6 +23,9 @@ fn agrees_with_its_twin(gpu: &Gpu) {
     for (width, height) in [(1, 1), (63, 1), (64, 1), (65, 1), (1, 65), (50, 100)] {
         for boundary in [Boundary::Periodic, Boundary::Mirror] {
             let surface = bumpy(width, height, boundary, 11);
+            let other = bumpy(width, height, boundary, 12).lobes;
+            let in_frame = |frame| reference::Surface { frame, lobes: [surface.lobes.clone(), other.clone()].concat(), ..surface.clone() };
+            for surface in [surface.clone(), in_frame(Frame::Texel), in_frame(Frame::Seen)] {
             let uploaded = upload(gpu, &surface);
             for (view, light) in [((0.0, 0.0), (35.0, 20.0)), ((40.0, 130.0), (60.0, 250.0)), ((75.0, 300.0), (75.0, 45.0))] {
                 let (view, light) = (Direction::from_degrees(view.0, view.1), Direction::from_degrees(light.0, light.1));
@@ -37,13 +40,16 @@ fn agrees_with_its_twin(gpu: &Gpu) {
                     hold(&format!("reconstruct: share of pixels off by more than 0.005, {light_is} light"), differing, 0.002);
                 }
             }
+            }
         }
     }
 }
 
 /// Without relief, and with displacement seen from so high that nothing hides, pixels agree one by one.
 fn agrees_where_nothing_is_discontinuous(gpu: &Gpu) {
-    let surface = bumpy(50, 100, Boundary::Mirror, 5);
+    let flat = bumpy(50, 100, Boundary::Mirror, 5);
+    let frames = [Frame::Plane, Frame::Texel, Frame::Seen].map(|frame| reference::Surface { frame, ..flat.clone() });
+    for surface in frames {
     let uploaded = upload(gpu, &surface);
     let light = Direction::from_degrees(50.0, 200.0);
     // Flat: one power with an exponent up to 20 (2e-6 relative) of values below 1.5. Displaced: places off by the secant's error and
@@ -56,6 +62,7 @@ fn agrees_where_nothing_is_discontinuous(gpu: &Gpu) {
         let what = if relief.displace { "reconstruct: displaced pixels" } else { "reconstruct: flat pixels" };
         hold(what, worst_difference(found, expected.values().iter().flatten().copied()), bound);
     }
+    }
 }
 
 /// One row past 65,535 workgroups of 64, against a picture of one tile of it.
@@ -67,8 +74,7 @@ fn a_repeated_surface_gives_the_repeated_picture(gpu: &Gpu) {
         heights: tile.heights.repeated(columns, rows),
         normals: tile.normals.repeated(columns, rows),
         diffuse: tile.diffuse.repeated(columns, rows),
-        specular: tile.specular.repeated(columns, rows),
-        lobe: tile.lobe.repeated(columns, rows),
+        lobes: tile.lobes.iter().map(|(specular, lobe)| (specular.repeated(columns, rows), lobe.repeated(columns, rows))).collect(),
         painted: tile.painted.repeated(columns, rows),
         ..tile.clone()
     };

@@ -23,7 +23,8 @@ pub fn white(heights: Map<f64>) -> SynthSurface {
 
 /// Waves with another reflectance in every texel.
 pub fn wavy(width: usize, height: usize, seed: u64) -> SynthSurface {
-    let overpaint::reference::Surface { heights, diffuse, specular, lobe, .. } = bumpy(width, height, Boundary::Periodic, seed);
+    let overpaint::reference::Surface { heights, diffuse, mut lobes, .. } = bumpy(width, height, Boundary::Periodic, seed);
+    let (specular, lobe) = lobes.remove(0);
     SynthSurface { heights, diffuse, specular, lobe }
 }
 

@@ -6,7 +6,7 @@ use nv_flip::{FlipImageRgb8, FlipPool};
 use overpaint::{
     data::{Direction, Map},
     gpu::Gpu,
-    model::{Boundary, Coat, Relief},
+    model::{Boundary, Coat, Frame, Relief},
     reference, stage,
 };
 
@@ -18,8 +18,8 @@ pub fn plain(width: usize, height: usize) -> reference::Surface {
         heights: Map::from_fn(width, height, |_, _| 0.0),
         normals: Map::from_fn(width, height, |_, _| [0.0, 0.0, 1.0]),
         diffuse: Map::from_fn(width, height, |_, _| [1.0; 3]),
-        specular: Map::from_fn(width, height, |_, _| [0.0; 3]),
-        lobe: Map::from_fn(width, height, |_, _| [-1.0, -1.0, 1.0, 1.0]),
+        frame: Frame::Plane,
+        lobes: vec![(Map::from_fn(width, height, |_, _| [0.0; 3]), Map::from_fn(width, height, |_, _| [-1.0, -1.0, 1.0, 1.0]))],
         painted: Map::from_fn(width, height, |_, _| [0.0; 4]),
         boundary: Boundary::Periodic,
         coat: Coat::default(),
@@ -61,31 +61,29 @@ pub fn bumpy(width: usize, height: usize, boundary: Boundary, seed: u64) -> refe
         let [r, g, b] = pigment[(column, row)];
         [r, g, b, single((0.5 + wave(row, column)).clamp(0.0, 1.0))]
     });
-    let surface = reference::Surface { diffuse, specular, lobe, painted, boundary, ..plain(width, height) };
+    let surface = reference::Surface { diffuse, lobes: vec![(specular, lobe)], painted, boundary, ..plain(width, height) };
     with_heights(surface, Map::from_fn(width, height, wave))
 }
 
 /// The surface on the adapter.
 pub fn upload(gpu: &Gpu, surface: &reference::Surface) -> stage::Surface {
-    let three = |map: &Map<[f64; 3]>| {
-        let values: Vec<_> = map.values().iter().map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]).collect();
-        gpu.upload("map", &values).expect("fits")
-    };
-    let four = |map: &Map<[f64; 4]>| {
-        let values: Vec<_> = map.values().iter().map(|v| v.map(|x| x as f32)).collect();
-        gpu.upload("map", &values).expect("fits")
-    };
+    let three = |map: &Map<[f64; 3]>| map.values().iter().map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]).collect::<Vec<_>>();
+    let four = |map: &Map<[f64; 4]>| map.values().iter().map(|v| v.map(|x| x as f32)).collect::<Vec<_>>();
+    let upload = |values: Vec<[f32; 4]>| gpu.upload("map", &values).expect("fits");
     let heights: Vec<_> = surface.heights.values().iter().map(|&z| z as f32).collect();
     stage::Surface {
-        size: [surface.heights.width() as u32, surface.heights.height() as u32],
-        heights: gpu.upload("heights", &heights).expect("fits"),
-        normals: three(&surface.normals),
-        diffuse: three(&surface.diffuse),
-        specular: three(&surface.specular),
-        lobe: four(&surface.lobe),
-        painted: four(&surface.painted),
-        height_range: [heights.iter().copied().fold(f32::INFINITY, f32::min), heights.iter().copied().fold(f32::NEG_INFINITY, f32::max)],
-        boundary: surface.boundary,
+        field: stage::HeightField {
+            size: [surface.heights.width() as u32, surface.heights.height() as u32],
+            heights: gpu.upload("heights", &heights).expect("fits"),
+            normals: upload(three(&surface.normals)),
+            range: [heights.iter().copied().fold(f32::INFINITY, f32::min), heights.iter().copied().fold(f32::NEG_INFINITY, f32::max)],
+            boundary: surface.boundary,
+        },
+        frame: surface.frame,
+        diffuse: upload(three(&surface.diffuse)),
+        specular: upload(surface.lobes.iter().flat_map(|(specular, _)| three(specular)).collect()),
+        lobes: upload(surface.lobes.iter().flat_map(|(_, lobe)| four(lobe)).collect()),
+        painted: upload(four(&surface.painted)),
         coat: surface.coat,
     }
 }
@@ -96,7 +94,7 @@ pub fn reconstruct(gpu: &Gpu, surface: &stage::Surface, view: Direction, light: 
     let mut recorder = gpu.recorder();
     let picture = stage.record(&mut recorder, surface, view, light, relief).expect("records");
     gpu.submit(recorder).wait(gpu).expect("runs");
-    let [width, height] = surface.size.map(|texels| texels as usize);
+    let [width, height] = surface.field.size.map(|texels| texels as usize);
     Map::new(width, height, picture.read(gpu).expect("reads")).expect("one pixel a texel")
 }
 

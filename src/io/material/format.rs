@@ -2,11 +2,13 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::data::MAX_LOBES;
+
 /// Name of the form, in the group's attributes.
 pub const MATERIAL_FORMAT: &str = "overpaint material";
 
 /// Version of the form, in the group's attributes.
-pub(super) const VERSION: u64 = 1;
+pub(super) const VERSION: u64 = 2;
 
 /// Rows and columns of a chunk, fewer where the plane has fewer.
 pub(super) const CHUNK: usize = 256;
@@ -29,18 +31,23 @@ const fn layout(
     Layout { name, components, unit, about }
 }
 
+const fn specular(name: &'static str) -> Layout {
+    layout(name, RGB, "reflectance", "rho_s")
+}
+
+const fn lobe(name: &'static str) -> Layout {
+    let parameters = Some(("parameter", &["C_x", "C_y", "C_z", "n"] as &[&str]));
+    layout(name, parameters, "1", "lobe (C_x l_x v_x + C_y l_y v_y + C_z l_z v_z)^n, Lafortune et al. 1997")
+}
+
 pub(super) const HEIGHT: Layout = layout("height", None, "texel widths", "height, positive outwards, mean zero");
 pub(super) const NORMAL: Layout = layout("normal", XYZ, "1", "unit normals of the height field");
 pub(super) const NORMAL_MEASURED: Layout = layout("normal_measured", XYZ, "1", "unit normals of photometric stereo, before integration");
 pub(super) const ALBEDO: Layout = layout("albedo", None, "reflectance", "albedo of photometric stereo");
 pub(super) const DIFFUSE: Layout = layout("diffuse", RGB, "reflectance", "rho_d");
-pub(super) const SPECULAR: Layout = layout("specular", RGB, "reflectance", "rho_s");
-pub(super) const LOBE: Layout = layout(
-    "lobe",
-    Some(("parameter", &["C_x", "C_y", "C_z", "n"])),
-    "1",
-    "lobe (C_x l_x v_x + C_y l_y v_y + C_z l_z v_z)^n, Lafortune et al. 1997",
-);
+/// Of the first lobe, the second and the third.
+pub(super) const SPECULAR: [Layout; MAX_LOBES] = [specular("specular"), specular("specular_2"), specular("specular_3")];
+pub(super) const LOBE: [Layout; MAX_LOBES] = [lobe("lobe"), lobe("lobe_2"), lobe("lobe_3")];
 pub(super) const OBJECTIVE_WITHOUT_LOBE: Layout =
     layout("fit_objective_without_lobe", None, "reflectance^2", "mean squared residual without any lobe");
 pub(super) const OBJECTIVE: Layout = layout("fit_objective", None, "reflectance^2", "mean squared residual at the end of the fit");
@@ -57,14 +64,18 @@ pub(super) const MASKED: Layout =
     layout("fit_masked", None, "1", "number of masked samples: measurements that were NaN, infinite or negative, which take no part");
 
 /// Names of all arrays.
-pub(super) const NAMES: [&str; 12] = [
+pub(super) const NAMES: [&str; 16] = [
     HEIGHT.name,
     NORMAL.name,
     NORMAL_MEASURED.name,
     ALBEDO.name,
     DIFFUSE.name,
-    SPECULAR.name,
-    LOBE.name,
+    SPECULAR[0].name,
+    SPECULAR[1].name,
+    SPECULAR[2].name,
+    LOBE[0].name,
+    LOBE[1].name,
+    LOBE[2].name,
     OBJECTIVE_WITHOUT_LOBE.name,
     OBJECTIVE.name,
     ITERATIONS.name,

@@ -21,7 +21,10 @@ use format::Layout;
 pub use format::MATERIAL_FORMAT;
 
 use super::{ArrayFault, IoError, conventions, group, staging::Staging};
-use crate::data::{Fit, FitStatus, Map, Material, Provenance, ShapeError, Svbrdf};
+use crate::{
+    data::{Fit, FitStatus, Lobe, MAX_LOBES, Map, Material, Provenance, ShapeError, Svbrdf},
+    model::Frame,
+};
 
 /// Writes `material` as the folder `path`. Another material there is replaced; anything else is left as it is.
 ///
@@ -38,10 +41,12 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
     writer.store(&format::NORMAL, &material.normal, material.normal.values().as_flattened())?;
     writer.store(&format::NORMAL_MEASURED, &material.normal_measured, material.normal_measured.values().as_flattened())?;
     writer.store(&format::ALBEDO, &material.albedo, material.albedo.values())?;
-    let Svbrdf { diffuse, specular, lobe } = &material.svbrdf;
+    let Svbrdf { frame, diffuse, lobes } = &material.svbrdf;
     writer.store(&format::DIFFUSE, diffuse, diffuse.values().as_flattened())?;
-    writer.store(&format::SPECULAR, specular, specular.values().as_flattened())?;
-    writer.store(&format::LOBE, lobe, lobe.values().as_flattened())?;
+    for (index, Lobe { specular, parameters }) in lobes.iter().enumerate().take(MAX_LOBES) {
+        writer.store(&format::SPECULAR[index], specular, specular.values().as_flattened())?;
+        writer.store(&format::LOBE[index], parameters, parameters.values().as_flattened())?;
+    }
     let Fit { objective_without_lobe, objective, iterations, status, masked } = &material.fit;
     writer.store(&format::OBJECTIVE_WITHOUT_LOBE, objective_without_lobe, objective_without_lobe.values())?;
     writer.store(&format::OBJECTIVE, objective, objective.values())?;
@@ -57,6 +62,8 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
         ("format_version", json!(format::VERSION)),
         ("width", json!(width)),
         ("height", json!(height)),
+        ("frame", json!(frame)),
+        ("lobes", json!(lobes.len())),
         ("conventions", conventions::MATERIAL.iter().copied().collect()),
         ("provenance", provenance),
     ];
@@ -87,11 +94,18 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         side.ok_or_else(|| not_a_material(format!("its attribute \"{name}\" is {}", attributes[name])))
     };
     let size @ [width, height] = [side("width")?, side("height")?];
+    let frame: Frame = serde_json::from_value(attributes["frame"].clone())
+        .map_err(|error| not_a_material(format!("its attribute \"frame\" cannot be read: {error}")))?;
+    let lobes = attributes["lobes"].as_u64().and_then(|lobes| usize::try_from(lobes).ok()).filter(|lobes| (1..=MAX_LOBES).contains(lobes));
+    let lobes = lobes.ok_or_else(|| not_a_material(format!("its attribute \"lobes\" is {}", attributes["lobes"])))?;
     let provenance: Provenance = serde_json::from_value(attributes["provenance"].clone())
         .map_err(|error| not_a_material(format!("its attribute \"provenance\" cannot be read: {error}")))?;
 
     let store = Arc::new(FilesystemStore::new(path).map_err(|error| not_a_material(error.to_string()))?);
     let reader = Reader { path, store, size };
+    let lobe =
+        |index: usize| Ok(Lobe { specular: reader.vectors(&format::SPECULAR[index])?, parameters: reader.vectors(&format::LOBE[index])? });
+    let lobes = (0..lobes).map(lobe).collect::<Result<_, IoError>>()?;
     let status: Vec<u8> = reader.retrieve(&format::STATUS)?;
     let status: Vec<u32> = status.into_iter().map(u32::from).collect();
     for &code in &status {
@@ -102,11 +116,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         normal: reader.vectors(&format::NORMAL)?,
         normal_measured: reader.vectors(&format::NORMAL_MEASURED)?,
         albedo: reader.scalars(&format::ALBEDO)?,
-        svbrdf: Svbrdf {
-            diffuse: reader.vectors(&format::DIFFUSE)?,
-            specular: reader.vectors(&format::SPECULAR)?,
-            lobe: reader.vectors(&format::LOBE)?,
-        },
+        svbrdf: Svbrdf { frame, diffuse: reader.vectors(&format::DIFFUSE)?, lobes },
         fit: Fit {
             objective_without_lobe: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,
