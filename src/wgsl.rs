@@ -75,6 +75,10 @@ sources! {
     RELIEF = "kernels/common" "relief";
     /// Radiance that leaves a place of the base plane.
     SHADE = "kernels/common" "shade";
+    /// What views see of a height field.
+    SEEN_SURFACE = "kernels" "seen_surface";
+    /// How seen points are lit.
+    SHADING = "kernels" "shading";
     /// The frame of a normal.
     SHADING_FRAME = "kernels/common" "shading_frame";
     /// Slopes of normals.

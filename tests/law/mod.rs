@@ -20,6 +20,7 @@ crate::suites! {
     pigments,
     plane,
     reconstruct,
+    seen_surface,
     specular_residual,
     specular_scale,
     spectrum,

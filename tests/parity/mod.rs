@@ -15,6 +15,7 @@ crate::suites! {
     photometric_stereo,
     plane,
     reconstruct,
+    seen_surface,
     specular_residual,
     specular_scale,
     synth,
