@@ -25,6 +25,8 @@ sources! {
     FFT = "kernels" "fft";
     /// Kubelka-Munk films.
     FILM = "kernels/common" "film";
+    /// How far from flat a neighbourhood is.
+    FLATNESS = "kernels" "flatness";
     /// Spectrum of a height field from that of its slopes.
     FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
     /// Samples into a tile, masked where they are no radiance.
@@ -49,6 +51,8 @@ sources! {
     LAFORTUNE_START = "kernels" "lafortune_start";
     /// State of the Lafortune fit between passes.
     LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// What is left for the next lobe.
+    LOBE_RESIDUAL = "kernels" "lobe_residual";
     /// Reflection at a paint's surface.
     MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.

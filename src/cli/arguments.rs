@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::{
     data::{Block, Direction, RowOrder, Transfer},
-    model::{Boundary, SpecularScale, StereoMethod},
+    model::{Boundary, SpecularScale, StereoMethod, SurfaceMode},
 };
 
 /// Largest side of a picture: the largest texture that WebGPU guarantees.
@@ -114,6 +114,12 @@ pub fn region(text: &str) -> Result<Block, String> {
     parse().ok_or_else(|| "expected X,Y,WxH in texels, such as 64,0,128x128, W and H of 1 or more".to_owned())
 }
 
+/// `X,Y` of a texel.
+pub fn texel(text: &str) -> Result<[usize; 2], String> {
+    let texel = text.split_once(',').and_then(|(column, row)| Some([column.trim().parse().ok()?, row.trim().parse().ok()?]));
+    texel.ok_or_else(|| "expected X,Y of a texel, column and row from 0, such as 12,40".to_owned())
+}
+
 /// An integer of 1 or more.
 pub fn step(text: &str) -> Result<usize, String> {
     text.parse().ok().filter(|step| *step > 0).ok_or_else(|| "expected an integer of 1 or more".to_owned())
@@ -145,5 +151,15 @@ pub fn stereo_method() -> impl TypedValueParser<Value = StereoMethod> {
     PossibleValuesParser::new(["robust", "least-squares"]).map(|name| match name.as_str() {
         "least-squares" => StereoMethod::LeastSquares,
         _ => StereoMethod::Robust,
+    })
+}
+
+/// [`SurfaceMode`] by its name.
+pub fn surface() -> impl TypedValueParser<Value = SurfaceMode> {
+    PossibleValuesParser::new(["auto", "flat", "rough", "local"]).map(|name| match name.as_str() {
+        "flat" => SurfaceMode::Flat,
+        "rough" => SurfaceMode::Rough,
+        "local" => SurfaceMode::Local,
+        _ => SurfaceMode::Auto,
     })
 }

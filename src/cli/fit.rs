@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     io::{self, Unfinished},
-    model::{Boundary, FitSettings, SpecularScale, StereoMethod},
+    model::{Boundary, FitSettings, SpecularScale, StereoMethod, SurfaceMode},
     pipeline,
 };
 
@@ -34,6 +34,18 @@ pub struct Fit {
     /// The material to write, a Zarr group
     #[arg(short, long, value_name = "MATERIAL")]
     output: PathBuf,
+    /// How the surface is taken: each texel flat, rough with one texel's lobe for all, local with each texel in its own shading frame, or the one of them that leaves the least of some texels' radiance
+    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = arguments::surface())]
+    surface: SurfaceMode,
+    /// Lobes of a texel, with --surface local or auto
+    #[arg(long, value_name = "N", default_value_t = FitSettings::default().lobes, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=3))]
+    lobes: u32,
+    /// The texel whose lobe serves all of a rough surface: column and row; else the one with the flattest surroundings
+    #[arg(long, value_name = "X,Y", value_parser = arguments::texel)]
+    representative: Option<[usize; 2]>,
+    /// Samples of a rough surface below this part of the texel's median are taken to lie in shadow
+    #[arg(long, value_name = "PART", default_value_t = FitSettings::default().dark_fraction, allow_negative_numbers = true, value_parser = arguments::fraction)]
+    dark_fraction: f64,
     /// What lies beyond the sample's edge: periodic if it tiles, mirror if it is a cut-out
     #[arg(long, default_value = "periodic", value_parser = arguments::boundary())]
     boundary: Boundary,
@@ -75,6 +87,10 @@ pub struct Fit {
 impl Fit {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         let settings = FitSettings {
+            surface: self.surface,
+            lobes: self.lobes,
+            representative: self.representative,
+            dark_fraction: self.dark_fraction,
             boundary: self.boundary,
             stereo: self.stereo,
             max_slope: self.max_slope,

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::{Cli, CliError, reading::ReadingArguments, say};
 use crate::{
-    data::{Btf, Direction, Encoding, FitStatus, Material, Provenance, RowOrder, Transfer},
+    data::{Btf, Choice, Direction, Encoding, FitStatus, Material, Provenance, RowOrder, Transfer},
     io::{
         self,
         conventions::{self, Convention},
@@ -75,6 +75,8 @@ enum Content {
         fit: BTreeMap<&'static str, usize>,
         /// Samples that are no radiance and were left out, over all texels, of those that the fit was given.
         masked: u64,
+        choice: Choice,
+        lobes: usize,
         provenance: Provenance,
         #[serde(serialize_with = "as_map")]
         conventions: &'static [Convention],
@@ -141,6 +143,7 @@ fn fit_end(status: FitStatus) -> &'static str {
         FitStatus::NoSpecular => "no specular part",
         FitStatus::Stalled => "settled to rounding",
         FitStatus::TooFewSamples => "too few valid samples",
+        FitStatus::Shared => "with the representative texel's lobe",
     }
 }
 
@@ -162,6 +165,8 @@ impl Content {
             highest: heights.fold(f32::NEG_INFINITY, f32::max),
             fit: FitStatus::ALL.map(|status| (fit_end(status), texels(status))).into(),
             masked: material.fit.masked.values().iter().copied().map(u64::from).sum(),
+            choice: material.choice.clone(),
+            lobes: material.svbrdf.lobes.len(),
             provenance: material.provenance.clone(),
             conventions: conventions::MATERIAL,
         }
@@ -176,12 +181,14 @@ impl Content {
                 lines.measured(measured);
                 conventions
             }
-            Self::Material { width, height, lowest, highest, fit, masked, provenance, conventions } => {
+            Self::Material { width, height, lowest, highest, fit, masked, choice, lobes, provenance, conventions } => {
                 lines.add("material of", &provenance.source);
                 lines.add("texels", format!("{width} x {height}"));
                 lines.add("height", format!("{lowest:.3} to {highest:.3} texel widths"));
                 let ends: Vec<_> = fit.iter().filter(|(_, texels)| **texels > 0).map(|(end, texels)| format!("{texels} {end}")).collect();
                 lines.add("fit", ends.join(", "));
+                lines.add("surface", choice);
+                lines.add("lobes", lobes);
                 lines.add("masked", format!("{masked} samples that are no radiance"));
                 lines.measured(&Measured::of_provenance(provenance));
                 lines.add("adapter", &provenance.adapter);

@@ -1,10 +1,9 @@
 //! What is recovered from a BTF: geometry and per-texel reflectance.
 
-use super::{Direction, Encoding, Map, ShapeError};
-use crate::model::{FitSettings, Frame};
+use std::fmt;
 
-/// Most lobes of a texel.
-pub const MAX_LOBES: usize = 3;
+use super::{Direction, Encoding, Map, ShapeError};
+use crate::model::{FitSettings, Frame, SurfaceMode};
 
 /// One lobe of every texel.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,8 +21,79 @@ pub struct Svbrdf {
     pub frame: Frame,
     /// ρ_d per channel.
     pub diffuse: Map<[f32; 3]>,
-    /// The lobes, 1 to [`MAX_LOBES`].
+    /// The lobes, 1 to [`MAX_LOBES`](crate::model::MAX_LOBES).
     pub lobes: Vec<Lobe>,
+}
+
+/// A way of taking the surface, and how it did.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Candidate {
+    /// Flat, rough or local.
+    pub surface: SurfaceMode,
+    /// The frame that the reflectance is in.
+    pub frame: Frame,
+    /// Root of the sum of squared errors of the reconstructed radiance over that of the radiance's squares, on some texels; none if there
+    /// was nothing to choose.
+    pub relative_rms: Option<f64>,
+}
+
+/// Which way of taking the surface was chosen, and why.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Choice {
+    /// The candidates, best first.
+    pub candidates: Vec<Candidate>,
+    /// Number of texels that they were measured on.
+    pub texels: usize,
+    /// Column and row of the texel whose lobe serves all of a rough surface, if that was a candidate.
+    pub representative: Option<[usize; 2]>,
+}
+
+impl Choice {
+    /// A single candidate.
+    #[must_use]
+    pub fn only(surface: SurfaceMode, frame: Frame) -> Self {
+        Self { candidates: vec![Candidate { surface, frame, relative_rms: None }], texels: 0, representative: None }
+    }
+
+    /// The best candidate.
+    #[must_use]
+    pub fn chosen(&self) -> Candidate {
+        self.candidates.first().copied().unwrap_or(Candidate { surface: SurfaceMode::Flat, frame: Frame::Plane, relative_rms: None })
+    }
+}
+
+/// In a line: the candidate chosen, and what each left.
+impl fmt::Display for Choice {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}", self.chosen())?;
+        if let (Some([column, row]), SurfaceMode::Rough) = (self.representative, self.chosen().surface) {
+            write!(out, " with the lobe of texel {column},{row}")?;
+        }
+        if self.candidates.len() > 1 {
+            write!(out, ": on {} texels its relative RMS error is the least", self.texels)?;
+            for (index, candidate) in self.candidates.iter().enumerate() {
+                let relative_rms = candidate.relative_rms.unwrap_or(f64::NAN);
+                match index {
+                    0 => write!(out, ", {relative_rms:.4}")?,
+                    1 => write!(out, " ({candidate} {relative_rms:.4}")?,
+                    _ => write!(out, ", {candidate} {relative_rms:.4}")?,
+                }
+            }
+            write!(out, ")")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Candidate {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match (self.surface, self.frame) {
+            (SurfaceMode::Flat, _) => "flat",
+            (SurfaceMode::Rough, _) => "rough",
+            (SurfaceMode::Local | SurfaceMode::Auto, Frame::Seen) => "local in the frames of the points seen",
+            (SurfaceMode::Local | SurfaceMode::Auto, _) => "local in each texel's frame",
+        })
+    }
 }
 
 /// How a texel's fit ended.
@@ -40,11 +110,13 @@ pub enum FitStatus {
     Stalled = 3,
     /// Fewer valid samples than [`MIN_LOBE_SAMPLES`](crate::model::MIN_LOBE_SAMPLES): no lobe, ρ_s = 0.
     TooFewSamples = 4,
+    /// Not fitted: the lobe is that of the texel which represents a rough surface.
+    Shared = 5,
 }
 
 impl FitStatus {
     /// All, in order of their codes.
-    pub const ALL: [Self; 5] = [Self::Running, Self::Converged, Self::NoSpecular, Self::Stalled, Self::TooFewSamples];
+    pub const ALL: [Self; 6] = [Self::Running, Self::Converged, Self::NoSpecular, Self::Stalled, Self::TooFewSamples, Self::Shared];
 
     /// From the code that kernels write; `None` for any other number.
     #[must_use]
@@ -126,6 +198,8 @@ pub struct Material {
     pub svbrdf: Svbrdf,
     /// How the fit went.
     pub fit: Fit,
+    /// Which way of taking the surface was chosen.
+    pub choice: Choice,
     /// Where it came from.
     pub provenance: Provenance,
 }
@@ -166,6 +240,7 @@ impl Material {
                 status: self.fit.status.repeated(columns, rows),
                 masked: self.fit.masked.repeated(columns, rows),
             },
+            choice: self.choice.clone(),
             provenance: self.provenance.clone(),
         }
     }

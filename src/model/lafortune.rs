@@ -1,5 +1,8 @@
 //! The Lafortune lobe.
 
+/// Most lobes of a texel.
+pub const MAX_LOBES: usize = 3;
+
 /// Fewest valid samples of a texel that a lobe is fitted to: C, n and ρ_d are five numbers, and a lobe through hardly more samples than
 /// that follows their noise.
 pub const MIN_LOBE_SAMPLES: u32 = 8;

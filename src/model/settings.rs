@@ -1,6 +1,6 @@
 //! Settings of the recovery, read by stages and twins alike.
 
-use super::Boundary;
+use super::{Boundary, MAX_LOBES};
 
 /// How ρ_s is found once the lobe is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -11,6 +11,21 @@ pub enum SpecularScale {
     LeastSquares,
     /// The thesis' mean of s/lobe (eq. 3.6) over samples whose lobe is above [`FitSettings::min_lobe`].
     MeanRatio,
+}
+
+/// How the surface is taken when its reflectance is fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceMode {
+    /// As that of the others which leaves the least of some texels' radiance.
+    #[default]
+    Auto,
+    /// Each texel flat: reflectance in the base plane's frame (thesis section 3.2.2).
+    Flat,
+    /// Rough: samples in shadow left out, and the lobe of one texel in a flat area for all (thesis section 3.2.2).
+    Rough,
+    /// Each texel in a shading frame of its own, fitted to the radiance itself.
+    Local,
 }
 
 /// How photometric stereo weighs a texel's samples.
@@ -29,6 +44,12 @@ pub enum StereoMethod {
 /// Everything that a user may set for `fit`.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FitSettings {
+    /// How the surface is taken.
+    pub surface: SurfaceMode,
+    /// Lobes of a texel, from 1 to [`MAX_LOBES`]; flat and rough surfaces have one.
+    pub lobes: u32,
+    /// Column and row of the texel whose lobe serves all of a rough surface; none: the one with the flattest surroundings.
+    pub representative: Option<[usize; 2]>,
     /// What lies beyond the sample's edge.
     pub boundary: Boundary,
     /// How photometric stereo weighs a texel's samples.
@@ -61,6 +82,9 @@ pub struct FitSettings {
 impl Default for FitSettings {
     fn default() -> Self {
         Self {
+            surface: SurfaceMode::Auto,
+            lobes: 1,
+            representative: None,
             boundary: Boundary::Periodic,
             stereo: StereoMethod::default(),
             // 84°: beyond it a photograph from above says nothing of a slope.
@@ -98,7 +122,9 @@ impl FitSettings {
     /// [`SettingsError`] for the first that is not.
     pub fn checked(&self) -> Result<(), SettingsError> {
         let [least, greatest] = self.exponents;
+        let most_lobes = if matches!(self.surface, SurfaceMode::Flat | SurfaceMode::Rough) { 1 } else { MAX_LOBES };
         let checks = [
+            ("lobes", format!("{}", self.lobes), (1..=most_lobes).contains(&(self.lobes as usize)), "from 1 to 3, and 1 with a surface taken as flat or rough"),
             ("max_slope", format!("{}", self.max_slope), (1e-3..=1e3).contains(&self.max_slope), "from 0.001 to 1000"),
             ("min_cos_light", format!("{}", self.min_cos_light), (1e-3..=1.0).contains(&self.min_cos_light), "from 0.001 to 1"),
             ("diffuse_quantile", format!("{}", self.diffuse_quantile), (0.0..=1.0).contains(&self.diffuse_quantile), "from 0 to 1"),

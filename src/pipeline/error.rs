@@ -36,6 +36,18 @@ pub enum PipelineError {
     /// A map came back in another shape than it was asked for: a bug of this program.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// A texel was named that is not there.
+    #[error("the plane has {width} x {height} texels; there is no texel {column},{row}. Name a column from 0 and a row from 0, the top row")]
+    NoSuchTexel {
+        /// Named column.
+        column: usize,
+        /// Named row.
+        row: usize,
+        /// Columns that there are.
+        width: usize,
+        /// Rows that there are.
+        height: usize,
+    },
     /// Every light is too low for the reflectance to be computed.
     #[error(
         "all {samples} samples of \"{source_name}\" have lights lower than cos θ = {min_cos_light}, so that no reflectance can be computed. Lower min_cos_light"

@@ -31,7 +31,7 @@ pub fn fit_within(
     settings.checked()?;
     let job = Job { gpu, source, memory, unfinished, progress };
     let geometry = geometry::recover(&job, settings)?;
-    let (svbrdf, fit) = reflectance::recover(&job, settings)?;
+    let (svbrdf, fit, choice) = reflectance::recover(&job, settings, &geometry.field)?;
     let material = Material {
         height: geometry.height,
         normal: geometry.normal,
@@ -39,6 +39,7 @@ pub fn fit_within(
         albedo: geometry.albedo,
         svbrdf,
         fit,
+        choice,
         provenance: provenance(gpu, source, settings),
     };
     Ok(material.checked()?)

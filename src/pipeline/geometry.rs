@@ -7,7 +7,7 @@ use super::{
 use crate::{
     data::{Direction, Map},
     model::FitSettings,
-    stage,
+    stage::{self, HeightField},
 };
 
 /// What photometric stereo and integration give.
@@ -20,6 +20,8 @@ pub(super) struct Geometry {
     pub normal_measured: Map<[f32; 3]>,
     /// Photometric stereo's albedo.
     pub albedo: Map<f32>,
+    /// Height and normals on the adapter.
+    pub field: HeightField,
 }
 
 pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<Geometry, PipelineError> {
@@ -28,7 +30,7 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<Geometry,
     let samples = btf.zenith_samples();
     let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
     let stereo = stage::PhotometricStereo::new(gpu)?;
-    let measured: Vec<[f32; 4]> = job.for_each_tile("normals", &samples, |gathered| {
+    let measured: Vec<[f32; 4]> = job.for_each_tile("normals", &samples, |gathered, _| {
         let tile = gathered.tile;
         let size = [tile.texels, tile.samples];
         let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights, settings.stereo))?;
@@ -46,10 +48,13 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<Geometry,
         run(gpu, progress, "normals", [btf.texels(), 1], |recorder| from_height.record(recorder, &heights, size, settings.boundary))?;
 
     let measured = Map::new(width, height, measured)?;
+    let height_map = Map::new(width, height, heights.read(gpu)?)?;
+    let range = height_map.values().iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)]);
     Ok(Geometry {
-        height: Map::new(width, height, heights.read(gpu)?)?,
+        height: height_map,
         normal: Map::new(width, height, normals.read(gpu)?)?.map(|&[x, y, z, _]| [x, y, z]),
         normal_measured: measured.map(|&[x, y, z, _]| [x, y, z]),
         albedo: measured.map(|&[_, _, _, albedo]| albedo),
+        field: HeightField { size, heights, normals, range, boundary: settings.boundary },
     })
 }

@@ -5,10 +5,10 @@ use rayon::prelude::*;
 
 use super::{PipelineError, Progress, tiles::run};
 use crate::{
-    data::{Block, Btf, Direction, Encoding, Fit, FitStatus, Lobe, Map, Material, Pair, Provenance, Svbrdf, Transfer},
+    data::{Block, Btf, Choice, Direction, Encoding, Fit, FitStatus, Lobe, Map, Material, Pair, Provenance, Svbrdf, Transfer},
     gpu::Gpu,
     io::{IoError, Source},
-    model::{Boundary, FitSettings, Frame, Synth, SynthPlace, SynthTexel},
+    model::{Boundary, FitSettings, Frame, SurfaceMode, Synth, SynthPlace, SynthTexel},
     stage::{self, SynthSurface},
 };
 
@@ -117,6 +117,7 @@ impl<'g> Synthetic<'g> {
                 iterations: self.heights.map(|_| 0),
                 status: self.svbrdf.lobes[0].specular.map(|specular| status(specular) as u32),
             },
+            choice: Choice::only(SurfaceMode::Local, Frame::Seen),
             provenance: Provenance {
                 source: format!("{}: synthetic truth of {}, lobes in each texel's own frame", self.btf.name(), self.recipe),
                 views: self.btf.views().to_vec(),

@@ -13,7 +13,7 @@ use crate::{
     data::{Block, OCTET},
     gpu::{Gpu, Recorder},
     io::{Source, Unfinished},
-    stage::{Gather, Gathered, LafortuneFit},
+    stage::{Gather, Gathered, LafortuneFit, count},
 };
 
 /// Bytes that a texel's samples take on the adapter at most, in units of the halves of its three channels: as they are uploaded, the copy
@@ -62,10 +62,37 @@ impl Job<'_> {
         Block::tiles(size, [columns.min(width), rows.min(height)]).collect()
     }
 
-    /// What `work` finds for the texels of each tile of the source, `[texel of the plane]`. `work` is given a tile with the given samples.
+    /// A tile of `patches`, one after the other, with the given samples, and the places of its texels (column, row).
+    pub(super) fn sample(&self, samples: &[usize], patches: &[Block]) -> Result<(Gathered, Vec<[u32; 2]>), PipelineError> {
+        let Self { gpu, source, progress, .. } = *self;
+        let texels = patches.iter().map(Block::texels).sum();
+        let mut halves = vec![f16::ZERO; 3 * samples.len() * texels];
+        let mut first = 0;
+        for patch in patches {
+            let mut part = vec![f16::ZERO; 3 * samples.len() * patch.texels()];
+            let stage = progress.stage("read", patch.texels(), samples.len());
+            source.read(samples, *patch, &mut part, &|_| {})?;
+            drop(stage);
+            for (all, part) in halves.chunks_exact_mut(texels).zip(part.chunks_exact(patch.texels())) {
+                all[first..first + part.len()].copy_from_slice(part);
+            }
+            first += patch.texels();
+        }
+        let mut words = vec![0_u32; halves.len().div_ceil(2)];
+        bytemuck::cast_slice_mut(&mut words)[..halves.len()].copy_from_slice(&halves);
+        let gather = Gather::new(gpu)?;
+        let gathered = run(gpu, progress, "gather", [texels, samples.len()], |recorder| {
+            let halves = gpu.upload("halves", &words)?;
+            gather.record(recorder, &halves, samples.len(), texels)
+        })?;
+        Ok((gathered, patches.iter().flat_map(|patch| places(*patch, 0..patch.texels())).collect()))
+    }
+
+    /// What `work` finds for the texels of each tile of the source, `[texel of the plane]`. `work` is given a tile with the given samples
+    /// and the places of its texels (column, row).
     /// `what` names the result among those kept.
     pub(super) fn for_each_tile<T: Pod>(
-        &self, what: &str, samples: &[usize], mut work: impl FnMut(Gathered) -> Result<Vec<T>, PipelineError>,
+        &self, what: &str, samples: &[usize], mut work: impl FnMut(Gathered, &[[u32; 2]]) -> Result<Vec<T>, PipelineError>,
     ) -> Result<Vec<T>, PipelineError> {
         let Self { gpu, source, progress, .. } = *self;
         let gather = Gather::new(gpu)?;
@@ -111,7 +138,7 @@ impl Job<'_> {
                         let halves = gpu.upload("halves", part.as_deref().unwrap_or(&words))?;
                         gather.record(recorder, &halves, samples.len(), range.len())
                     })?;
-                    let texels = work(gathered)?;
+                    let texels = work(gathered, &places(block, range.clone()))?;
                     if let Some(unfinished) = self.unfinished {
                         unfinished.put(&name(what, block, &range), bytemuck::cast_slice(&texels))?;
                     }
@@ -142,6 +169,11 @@ fn part(halves: &[f16], texels: usize, range: Range<usize>) -> Option<Vec<u32>> 
         part.copy_from_slice(&plane[range.clone()]);
     }
     Some(words)
+}
+
+/// Column and row of texels of a block.
+fn places(block: Block, range: Range<usize>) -> Vec<[u32; 2]> {
+    range.map(|texel| [count(block.column + texel % block.width), count(block.row + texel / block.width)]).collect()
 }
 
 /// The name under which a tile's result is kept.

@@ -2,10 +2,12 @@
 
 mod brdf_values;
 mod fft;
+mod flatness;
 mod frankot_chellappa;
 mod gather;
 mod kubelka_munk;
 mod lafortune_fit;
+mod lobe_residual;
 mod normals;
 mod paint_relief;
 mod pattern;
@@ -23,10 +25,12 @@ mod synth;
 
 pub use brdf_values::brdf_values;
 pub use fft::fft;
+pub use flatness::flatness;
 pub use frankot_chellappa::frankot_chellappa;
 pub use gather::gather;
 pub use kubelka_munk::{film, kubelka_munk};
 pub use lafortune_fit::{LafortuneFit, lafortune_fit, lafortune_gradient, lafortune_objective};
+pub use lobe_residual::lobe_residual;
 pub use normals::normals;
 pub use paint_relief::paint_relief;
 pub use pattern::pattern;

@@ -3,10 +3,12 @@
 crate::suites! {
     brdf_values,
     fft,
+    flatness,
     frankot_chellappa,
     gather,
     kubelka_munk,
     lafortune_fit,
+    lobe_residual,
     microfacet,
     normals,
     paint_relief,

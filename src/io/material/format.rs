@@ -57,7 +57,7 @@ pub(super) const STATUS: Layout = layout(
     None,
     "code",
     "0 out of iterations, 1 converged, 2 no specular part, 3 settled to rounding: no step lowers the objective in single precision, \
-     4 too few valid samples: no lobe",
+     4 too few valid samples: no lobe, 5 not fitted: the lobe is that of the representative texel",
 );
 
 pub(super) const MASKED: Layout =

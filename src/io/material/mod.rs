@@ -22,7 +22,7 @@ pub use format::MATERIAL_FORMAT;
 
 use super::{ArrayFault, IoError, conventions, group, staging::Staging};
 use crate::{
-    data::{Fit, FitStatus, Lobe, MAX_LOBES, Map, Material, Provenance, ShapeError, Svbrdf},
+    data::{Choice, Fit, FitStatus, Lobe, MAX_LOBES, Map, Material, Provenance, ShapeError, Svbrdf},
     model::Frame,
 };
 
@@ -63,6 +63,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
         ("width", json!(width)),
         ("height", json!(height)),
         ("frame", json!(frame)),
+        ("choice", json!(material.choice)),
         ("lobes", json!(lobes.len())),
         ("conventions", conventions::MATERIAL.iter().copied().collect()),
         ("provenance", provenance),
@@ -96,6 +97,8 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
     let size @ [width, height] = [side("width")?, side("height")?];
     let frame: Frame = serde_json::from_value(attributes["frame"].clone())
         .map_err(|error| not_a_material(format!("its attribute \"frame\" cannot be read: {error}")))?;
+    let choice: Choice = serde_json::from_value(attributes["choice"].clone())
+        .map_err(|error| not_a_material(format!("its attribute \"choice\" cannot be read: {error}")))?;
     let lobes = attributes["lobes"].as_u64().and_then(|lobes| usize::try_from(lobes).ok()).filter(|lobes| (1..=MAX_LOBES).contains(lobes));
     let lobes = lobes.ok_or_else(|| not_a_material(format!("its attribute \"lobes\" is {}", attributes["lobes"])))?;
     let provenance: Provenance = serde_json::from_value(attributes["provenance"].clone())
@@ -124,6 +127,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
             status: Map::new(width, height, status)?,
             masked: reader.scalars(&format::MASKED)?,
         },
+        choice,
         provenance,
     })
 }
