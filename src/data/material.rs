@@ -32,6 +32,10 @@ pub struct Candidate {
     pub surface: SurfaceMode,
     /// The frame that the reflectance is in.
     pub frame: Frame,
+    /// Factor on the height as photometric stereo and integration give it.
+    pub height_scale: f64,
+    /// Height of its mean over the plane that the pictures are rectified to, texel widths.
+    pub height_level: f64,
     /// Root of the sum of squared errors of the reconstructed radiance over that of the radiance's squares, on some texels; none if there
     /// was nothing to choose.
     pub relative_rms: Option<f64>,
@@ -48,17 +52,31 @@ pub struct Choice {
     pub representative: Option<[usize; 2]>,
 }
 
+impl Candidate {
+    /// One that is not measured, with the height as it was recovered.
+    #[must_use]
+    pub fn new(surface: SurfaceMode, frame: Frame) -> Self {
+        Self { surface, frame, height_scale: 1.0, height_level: 0.0, relative_rms: None }
+    }
+
+    /// Whether the height is as it was recovered.
+    #[must_use]
+    pub fn has_measured_height(&self) -> bool {
+        self.height_scale == 1.0 && self.height_level == 0.0
+    }
+}
+
 impl Choice {
     /// A single candidate.
     #[must_use]
     pub fn only(surface: SurfaceMode, frame: Frame) -> Self {
-        Self { candidates: vec![Candidate { surface, frame, relative_rms: None }], texels: 0, representative: None }
+        Self { candidates: vec![Candidate::new(surface, frame)], texels: 0, representative: None }
     }
 
     /// The best candidate.
     #[must_use]
     pub fn chosen(&self) -> Candidate {
-        self.candidates.first().copied().unwrap_or(Candidate { surface: SurfaceMode::Flat, frame: Frame::Plane, relative_rms: None })
+        self.candidates.first().copied().unwrap_or(Candidate::new(SurfaceMode::Flat, Frame::Plane))
     }
 }
 
@@ -92,7 +110,11 @@ impl fmt::Display for Candidate {
             (SurfaceMode::Rough, _) => "rough",
             (SurfaceMode::Local | SurfaceMode::Auto, Frame::Seen) => "local in the frames of the points seen",
             (SurfaceMode::Local | SurfaceMode::Auto, _) => "local in each texel's frame",
-        })
+        })?;
+        if !self.has_measured_height() {
+            write!(out, ", height times {:.2} and raised by {:.2},", self.height_scale, self.height_level)?;
+        }
+        Ok(())
     }
 }
 
@@ -186,7 +208,8 @@ mod degrees {
 /// A recovered material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Height in texel widths, positive outwards, mean zero.
+    /// Height over the plane that the pictures are rectified to, in texel widths, positive outwards; its mean is 0 unless the views
+    /// tell another level ([`Candidate::height_level`]).
     pub height: Map<f32>,
     /// Unit normals of the height field.
     pub normal: Map<[f32; 3]>,

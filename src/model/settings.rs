@@ -124,7 +124,12 @@ impl FitSettings {
         let [least, greatest] = self.exponents;
         let most_lobes = if matches!(self.surface, SurfaceMode::Flat | SurfaceMode::Rough) { 1 } else { MAX_LOBES };
         let checks = [
-            ("lobes", format!("{}", self.lobes), (1..=most_lobes).contains(&(self.lobes as usize)), "from 1 to 3, and 1 with a surface taken as flat or rough"),
+            (
+                "lobes",
+                format!("{}", self.lobes),
+                (1..=most_lobes).contains(&(self.lobes as usize)),
+                "from 1 to 3, and 1 with a surface taken as flat or rough",
+            ),
             ("max_slope", format!("{}", self.max_slope), (1e-3..=1e3).contains(&self.max_slope), "from 0.001 to 1000"),
             ("min_cos_light", format!("{}", self.min_cos_light), (1e-3..=1.0).contains(&self.min_cos_light), "from 0.001 to 1"),
             ("diffuse_quantile", format!("{}", self.diffuse_quantile), (0.0..=1.0).contains(&self.diffuse_quantile), "from 0 to 1"),

@@ -37,7 +37,9 @@ pub enum PipelineError {
     #[error(transparent)]
     Shape(#[from] ShapeError),
     /// A texel was named that is not there.
-    #[error("the plane has {width} x {height} texels; there is no texel {column},{row}. Name a column from 0 and a row from 0, the top row")]
+    #[error(
+        "the plane has {width} x {height} texels; there is no texel {column},{row}. Name a column from 0 and a row from 0, the top row"
+    )]
     NoSuchTexel {
         /// Named column.
         column: usize,

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::{Memory, PipelineError, Progress, geometry, reflectance, tiles::Job};
 use crate::{
-    data::{Material, Provenance},
+    data::{Candidate, Material, Provenance},
     gpu::Gpu,
     io::{Source, Unfinished},
     model::FitSettings,
@@ -29,9 +29,17 @@ pub fn fit_within(
     gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, unfinished: Option<&Unfinished>, progress: &Progress,
 ) -> Result<Material, PipelineError> {
     settings.checked()?;
+    let [width, height] = source.btf().size();
+    if let Some([column, row]) = settings.representative.filter(|&[column, row]| column >= width || row >= height) {
+        return Err(PipelineError::NoSuchTexel { column, row, width, height });
+    }
     let job = Job { gpu, source, memory, unfinished, progress };
     let geometry = geometry::recover(&job, settings)?;
-    let (svbrdf, fit, choice) = reflectance::recover(&job, settings, &geometry.field)?;
+    let stages = reflectance::Stages::new(gpu)?;
+    let choice = reflectance::choose(&job, &stages, settings, &geometry)?;
+    let Candidate { height_scale, height_level, .. } = choice.chosen();
+    let geometry = geometry.with_height(&job, height_scale, height_level)?;
+    let (svbrdf, fit) = reflectance::recover(&job, &stages, settings, &geometry.field, &choice)?;
     let material = Material {
         height: geometry.height,
         normal: geometry.normal,

@@ -7,12 +7,7 @@
 
 use half::f16;
 
-use super::{
-    Refitted,
-    scalar::count,
-    shading::Shaded,
-    tile::SampleDirections,
-};
+use super::{Refitted, scalar::count, shading::Shaded, tile::SampleDirections};
 use crate::{
     data::OCTET,
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},

@@ -1,8 +1,13 @@
-//! Which way of taking the surface suits a source: each candidate is fitted to the same few texels, and the one that leaves the least of
-//! their radiance is taken.
+//! Which way of taking the surface suits a source: each candidate is fitted to the same few texels and samples, and the one that leaves
+//! the least of their radiance is taken.
+//!
+//! Along with it comes what a single view leaves open of the height. Photometric stereo of the zenith view flattens a relief, since what
+//! its walls throw on each other lights its shadows, and an integral has no level. But seen obliquely a point stands beside its place by
+//! its height over the plane that the pictures are rectified to, so that the right scale and level are those under which the points seen
+//! explain the oblique views best. They are found by pattern search (Hooke, Jeeves 1961) with the same measure.
 
 use super::{
-    FittedTile, Model, lit_samples,
+    FittedTile, Model, Stages, lit_samples,
     local::{Framed, FramedTile},
 };
 use crate::{
@@ -10,9 +15,10 @@ use crate::{
     model::{FitSettings, Frame, SurfaceMode},
     pipeline::{
         PipelineError,
+        geometry::Geometry,
         tiles::{Job, run},
     },
-    stage::{self, HeightField},
+    stage::{self, Gathered, HeightField, Refitted},
 };
 
 /// Texels are measured in this many patches along each edge of the plane, each of so many texels along an edge: enough that the best
@@ -20,67 +26,145 @@ use crate::{
 const PATCHES: usize = 4;
 const PATCH: usize = 3;
 
-/// Measures the candidates that the settings leave open.
-pub(super) fn choose(job: &Job<'_>, settings: &FitSettings, field: &HeightField) -> Result<Choice, PipelineError> {
-    let candidates: &[(SurfaceMode, Frame)] = match settings.surface {
-        SurfaceMode::Flat => &[(SurfaceMode::Flat, Frame::Plane)],
-        SurfaceMode::Rough => &[(SurfaceMode::Rough, Frame::Plane)],
-        SurfaceMode::Local => &[(SurfaceMode::Local, Frame::Texel), (SurfaceMode::Local, Frame::Seen)],
+/// Samples of a texel that are measured at most: enough to tell candidates that differ by a hundredth, since all of them see the same.
+const MAX_SAMPLES: usize = 2048;
+
+/// First steps of the search for the height's scale (a factor) and level (of the standard deviation of the height), and how often they are
+/// halved: to a factor of 1.06 and an eighth of the deviation.
+const SCALE_STEP: f64 = 1.25;
+const LEVEL_STEP: f64 = 0.5;
+const HALVINGS: usize = 2;
+/// Bounds of the scale and the level, the latter in standard deviations: a level outside the relief is none.
+const SCALES: [f64; 2] = [0.5, 3.0];
+const LEVELS: [f64; 2] = [-3.0, 3.0];
+
+/// The candidates that the settings leave open, best first, and the texel whose lobe serves all of a rough surface.
+pub(in crate::pipeline) fn choose(
+    job: &Job<'_>, stages: &Stages, settings: &FitSettings, geometry: &Geometry,
+) -> Result<Choice, PipelineError> {
+    let local = [Candidate::new(SurfaceMode::Local, Frame::Texel), Candidate::new(SurfaceMode::Local, Frame::Seen)];
+    let [flat, rough] = [SurfaceMode::Flat, SurfaceMode::Rough].map(|surface| Candidate::new(surface, Frame::Plane));
+    let mut candidates = match settings.surface {
+        SurfaceMode::Flat => vec![flat],
+        SurfaceMode::Rough => vec![rough],
         // Flat and rough have one lobe.
-        SurfaceMode::Auto if settings.lobes > 1 => &[(SurfaceMode::Local, Frame::Texel), (SurfaceMode::Local, Frame::Seen)],
-        SurfaceMode::Auto => &[
-            (SurfaceMode::Local, Frame::Texel),
-            (SurfaceMode::Local, Frame::Seen),
-            (SurfaceMode::Flat, Frame::Plane),
-            (SurfaceMode::Rough, Frame::Plane),
-        ],
+        SurfaceMode::Auto if settings.lobes == 1 => [local.as_slice(), &[flat, rough]].concat(),
+        SurfaceMode::Local | SurfaceMode::Auto => local.to_vec(),
     };
-    let is_rough = candidates.iter().any(|(surface, _)| *surface == SurfaceMode::Rough);
-    let representative = if is_rough { Some(representative(job, settings, field)?) } else { None };
-    let mut candidates: Vec<Candidate> =
-        candidates.iter().map(|&(surface, frame)| Candidate { surface, frame, relative_rms: None }).collect();
+    let is_rough = candidates.iter().any(|candidate| candidate.surface == SurfaceMode::Rough);
+    let representative = if is_rough { Some(representative(job, settings, &geometry.field)?) } else { None };
     let mut texels = 0;
     if candidates.len() > 1 {
-        let lit = lit_samples(job.source, settings)?;
-        let (gathered, places) = job.sample(&lit, &patches(job.source.btf().size()))?;
-        texels = places.len();
-        let radiance = &gathered.tile;
-        let radiance_error = stage::RadianceError::new(job.gpu)?;
+        let measure = Measure::new(job, stages, settings, geometry, representative)?;
+        texels = measure.places.len();
         for candidate in &mut candidates {
-            let model = Model::new(job, settings, field, candidate, representative, lit.clone())?;
-            let FittedTile { coefficients, lobes, .. } = model.fit(&gathered, &places)?;
-            let framed = Framed::new(job, &lit, field, candidate.frame)?;
-            let FramedTile { seen, shaded } = framed.tile(radiance, &places)?;
-            let sums = run(job.gpu, job.progress, "radiance_error", [texels, lit.len()], |recorder| {
-                let (shading, directions) = (&shaded.shading, framed.directions());
-                radiance_error.record(recorder, radiance, shading, directions, &seen.normals, &coefficients, &lobes)
-            })?;
-            let [error, all] = sums.read(job.gpu)?.iter().fold([0.0, 0.0], |[error, all], sums| [error + sums[0], all + sums[1]]);
-            candidate.relative_rms = Some(f64::from(error / all.max(f32::MIN_POSITIVE)).sqrt());
+            candidate.relative_rms = Some(measure.relative_rms(candidate)?);
         }
+        // A single view sees no parallax.
+        let seen = candidates.iter().find(|candidate| candidate.frame == Frame::Seen).filter(|_| job.source.btf().views().len() > 1);
+        if let Some(better) = seen.map(|seen| measure.search(seen)).transpose()?.flatten() {
+            candidates.push(better);
+        }
+        candidates.sort_by(|a, b| a.relative_rms.unwrap_or(0.0).total_cmp(&b.relative_rms.unwrap_or(0.0)));
     }
-    candidates.sort_by(|a, b| a.relative_rms.unwrap_or(0.0).total_cmp(&b.relative_rms.unwrap_or(0.0)));
     Ok(Choice { candidates, texels, representative })
+}
+
+/// Some texels and samples of a source.
+struct Measure<'a> {
+    job: &'a Job<'a>,
+    settings: &'a FitSettings,
+    geometry: &'a Geometry,
+    representative: Option<[usize; 2]>,
+    samples: Vec<usize>,
+    gathered: Gathered,
+    places: Vec<[u32; 2]>,
+    stages: &'a Stages,
+}
+
+impl<'a> Measure<'a> {
+    fn new(
+        job: &'a Job<'a>, stages: &'a Stages, settings: &'a FitSettings, geometry: &'a Geometry, representative: Option<[usize; 2]>,
+    ) -> Result<Self, PipelineError> {
+        let lit = lit_samples(job.source, settings)?;
+        // Evenly spread, by a step that is no whole number, so that it does not keep to the same lights of each view.
+        let taken = lit.len().min(MAX_SAMPLES);
+        let samples: Vec<usize> = (0..taken).map(|index| lit[index * lit.len() / taken]).collect();
+        let (gathered, places) = job.sample(&samples, &patches(job.source.btf().size()))?;
+        Ok(Self { job, stages, settings, geometry, representative, samples, gathered, places })
+    }
+
+    /// What a candidate leaves of the radiance: root of the sum of squared errors over that of squares.
+    fn relative_rms(&self, candidate: &Candidate) -> Result<f64, PipelineError> {
+        let Self { job, stages, settings, gathered, places, samples, .. } = self;
+        let moved;
+        let field = if candidate.has_measured_height() {
+            &self.geometry.field
+        } else {
+            moved = self.geometry.with_height(job, candidate.height_scale, candidate.height_level)?.field;
+            &moved
+        };
+        let model = Model::new(job, stages, settings, field, candidate, self.representative, samples.clone())?;
+        let FittedTile { coefficients, lobes, .. } = model.fit(gathered, places)?;
+        let framed = Framed::new(job, stages, samples, field, candidate.frame)?;
+        let FramedTile { seen, shaded } = framed.tile(&gathered.tile, places)?;
+        let sums = run(job.gpu, job.progress, "radiance_error", [places.len(), samples.len()], |recorder| {
+            let (shading, directions) = (&shaded.shading, framed.directions());
+            let Refitted { diffuse, specular } = &coefficients;
+            stages.radiance_error.record(recorder, &gathered.tile, shading, directions, &seen.normals, diffuse, specular, &lobes)
+        })?;
+        let sums = sums.read(job.gpu)?;
+        let [error, all] = [0, 1].map(|of| sums.iter().map(|sums| f64::from(sums[of])).sum::<f64>());
+        Ok(if all > 0.0 { (error / all).sqrt() } else { 0.0 })
+    }
+
+    /// The scale and level of the height with which `seen` leaves less than as it is, if there are such.
+    fn search(&self, seen: &Candidate) -> Result<Option<Candidate>, PipelineError> {
+        let heights = self.geometry.height.values();
+        #[expect(clippy::cast_precision_loss, reason = "texels of a plane")]
+        let deviation = (heights.iter().map(|&z| f64::from(z).powi(2)).sum::<f64>() / heights.len() as f64).sqrt();
+        let mut best = *seen;
+        let (mut factor, mut shift) = (SCALE_STEP, LEVEL_STEP * deviation);
+        for _ in 0..=HALVINGS {
+            loop {
+                let before = best;
+                let around = [(factor, 0.0), (1.0 / factor, 0.0), (1.0, shift), (1.0, -shift)];
+                for (scale, level) in around {
+                    let tried = Candidate {
+                        height_scale: (before.height_scale * scale).clamp(SCALES[0], SCALES[1]),
+                        height_level: (before.height_level + level).clamp(LEVELS[0] * deviation, LEVELS[1] * deviation),
+                        relative_rms: None,
+                        ..before
+                    };
+                    let error = self.relative_rms(&tried)?;
+                    if best.relative_rms.is_none_or(|least| error < least) {
+                        best = Candidate { relative_rms: Some(error), ..tried };
+                    }
+                }
+                if best == before {
+                    break;
+                }
+            }
+            (factor, shift) = (factor.sqrt(), shift / 2.0);
+        }
+        Ok(Some(best).filter(|best| best != seen))
+    }
 }
 
 /// The texel whose lobe serves all of a rough surface: the one that was named, or that with the flattest surroundings.
 fn representative(job: &Job<'_>, settings: &FitSettings, field: &HeightField) -> Result<[usize; 2], PipelineError> {
-    let [width, height] = job.source.btf().size();
-    if let Some([column, row]) = settings.representative {
-        return if column < width && row < height {
-            Ok([column, row])
-        } else {
-            Err(PipelineError::NoSuchTexel { column, row, width, height })
-        };
+    if let Some(named) = settings.representative {
+        return Ok(named);
     }
     let flatness = stage::Flatness::new(job.gpu)?;
-    let roughness = run(job.gpu, job.progress, "flatness", [width * height, 0], |recorder| flatness.record(recorder, field))?;
+    let roughness = run(job.gpu, job.progress, "flatness", [job.source.btf().texels(), 0], |recorder| flatness.record(recorder, field))?;
     let roughness = roughness.read(job.gpu)?;
     let flattest = (0..roughness.len()).min_by(|&a, &b| roughness[a].total_cmp(&roughness[b])).unwrap_or_default();
+    let width = job.source.btf().size()[0];
     Ok([flattest % width, flattest / width])
 }
 
-/// Patches spread evenly over a plane; the whole plane if it is small.
+/// Patches spread evenly over a plane; its upper left corner if it is small.
 fn patches(size: [usize; 2]) -> Vec<Block> {
     if size.iter().any(|&side| side < PATCHES * PATCH) {
         let [width, height] = size.map(|side| side.min(PATCHES * PATCH));
@@ -88,11 +172,7 @@ fn patches(size: [usize; 2]) -> Vec<Block> {
     }
     // In the middle of each of the plane's parts.
     let start = |side: usize, part: usize| (2 * part + 1) * side / (2 * PATCHES) - PATCH / 2;
-    let patch = |index: usize| Block {
-        column: start(size[0], index % PATCHES),
-        row: start(size[1], index / PATCHES),
-        width: PATCH,
-        height: PATCH,
-    };
+    let patch =
+        |index: usize| Block { column: start(size[0], index % PATCHES), row: start(size[1], index / PATCHES), width: PATCH, height: PATCH };
     (0..PATCHES * PATCHES).map(patch).collect()
 }

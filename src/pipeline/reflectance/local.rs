@@ -2,7 +2,7 @@
 //! reaches it. Lobes are fitted to the radiance itself, ρ_d along with them, and in the end ρ_d and all ρ_s are found together by linear
 //! least squares: no quantile underestimates ρ_d, and nothing is divided by a small cosine.
 
-use super::FittedTile;
+use super::{FittedTile, Stages};
 use crate::{
     data::{Direction, Samples},
     gpu::{Buffer, Gpu},
@@ -19,27 +19,23 @@ pub(super) struct LocalFit<'a> {
     progress: &'a Progress,
     settings: &'a FitSettings,
     samples: Vec<usize>,
+    stages: &'a Stages,
     framed: Framed<'a>,
-    lafortune_fit: stage::LafortuneFit,
-    linear_refit: stage::LinearRefit,
-    lobe_residual: stage::LobeResidual,
 }
 
 impl<'a> LocalFit<'a> {
     /// Fitted to the given samples of the source.
     pub fn new(
-        job: &Job<'a>, settings: &'a FitSettings, field: &'a HeightField, frame: Frame, samples: Vec<usize>,
+        job: &Job<'a>, stages: &'a Stages, settings: &'a FitSettings, field: &'a HeightField, frame: Frame, samples: Vec<usize>,
     ) -> Result<Self, PipelineError> {
         let Job { gpu, progress, .. } = *job;
         Ok(Self {
             gpu,
             progress,
             settings,
-            framed: Framed::new(job, &samples, field, frame)?,
+            stages,
+            framed: Framed::new(job, stages, &samples, field, frame)?,
             samples,
-            lafortune_fit: stage::LafortuneFit::new(gpu)?,
-            linear_refit: stage::LinearRefit::new(gpu)?,
-            lobe_residual: stage::LobeResidual::new(gpu)?,
         })
     }
 
@@ -48,14 +44,14 @@ impl<'a> LocalFit<'a> {
     }
 
     pub fn fit(&self, radiance: &Tile, places: &[[u32; 2]]) -> Result<FittedTile, PipelineError> {
-        let Self { gpu, progress, settings, .. } = self;
+        let Self { gpu, progress, stages, settings, .. } = self;
         let texels = radiance.texels;
         let size = [texels, radiance.samples];
         let FramedTile { seen, shaded } = self.framed.tile(radiance, places)?;
         let directions = &self.framed.directions;
         let refit = |lobes: &Buffer<[f32; 4]>| {
             run(gpu, progress, "linear_refit", size, |recorder| {
-                self.linear_refit.record(recorder, radiance, &shaded.shading, directions, &seen.normals, lobes)
+                stages.linear_refit.record(recorder, radiance, &shaded.shading, directions, &seen.normals, lobes)
             })
         };
         // A lobe that is zero everywhere, before there is any.
@@ -66,10 +62,10 @@ impl<'a> LocalFit<'a> {
         let mut outcomes: Vec<[u32; 2]> = Vec::new();
         for lobe in 0..settings.lobes {
             let residual = run(gpu, progress, "lobe_residual", size, |recorder| {
-                self.lobe_residual.record(recorder, &shaded, directions, &seen.normals, &lobes, &coefficients)
+                stages.lobe_residual.record(recorder, &shaded, directions, &seen.normals, &lobes, &coefficients)
             })?;
             let fitted = run(gpu, progress, "lafortune_fit", size, |recorder| {
-                self.lafortune_fit.record_framed(recorder, &residual, &shaded.shading, directions, &seen.normals, settings)
+                stages.lafortune_fit.record_framed(recorder, &residual, &shaded.shading, directions, &seen.normals, settings)
             })?;
             found.extend(fitted.lobes.read(gpu)?);
             let (of_lobe, ends) = (fitted.objectives.read(gpu)?, fitted.outcomes.read(gpu)?);
@@ -99,8 +95,7 @@ pub(super) struct Framed<'a> {
     frame: Frame,
     views: Vec<Direction>,
     directions: Buffer<SampleDirections>,
-    seen_surface: stage::SeenSurface,
-    shading: stage::Shading,
+    stages: &'a Stages,
 }
 
 /// The surface points of a tile.
@@ -111,7 +106,7 @@ pub(super) struct FramedTile {
 
 impl<'a> Framed<'a> {
     /// For the given samples of the source.
-    pub fn new(job: &Job<'a>, samples: &[usize], field: &'a HeightField, frame: Frame) -> Result<Self, PipelineError> {
+    pub fn new(job: &Job<'a>, stages: &'a Stages, samples: &[usize], field: &'a HeightField, frame: Frame) -> Result<Self, PipelineError> {
         let Job { gpu, source, progress, .. } = *job;
         let btf = source.btf();
         let rows: Vec<u32> = samples.iter().map(|&sample| stage::count(btf.pairs()[sample].view)).collect();
@@ -125,8 +120,7 @@ impl<'a> Framed<'a> {
             frame,
             views: btf.views().to_vec(),
             directions: upload_directions(gpu, &samples, &rows)?,
-            seen_surface: stage::SeenSurface::new(gpu)?,
-            shading: stage::Shading::new(gpu)?,
+            stages,
         })
     }
 
@@ -135,17 +129,17 @@ impl<'a> Framed<'a> {
     }
 
     pub fn tile(&self, radiance: &Tile, places: &[[u32; 2]]) -> Result<FramedTile, PipelineError> {
-        let Self { gpu, progress, field, relief, .. } = *self;
+        let Self { gpu, progress, stages, field, relief, .. } = *self;
         let seen = if self.frame == Frame::Plane {
             let points = self.views.len() * places.len();
             Seen { normals: gpu.upload("upright normals", &vec![[0.0, 0.0, 1.0, 0.0]; points])?, points: gpu.zeros("points", points)? }
         } else {
             run(gpu, progress, "seen_surface", [radiance.texels, self.views.len()], |recorder| {
-                self.seen_surface.record(recorder, field, relief, &self.views, places)
+                stages.seen_surface.record(recorder, field, relief, &self.views, places)
             })?
         };
         let shaded = run(gpu, progress, "shading", [radiance.texels, radiance.samples], |recorder| {
-            self.shading.record(recorder, radiance, &self.directions, field, &seen, relief)
+            stages.shading.record(recorder, radiance, &self.directions, field, &seen, relief)
         })?;
         Ok(FramedTile { seen, shaded })
     }

@@ -7,6 +7,8 @@ mod choice;
 mod local;
 mod plane;
 
+pub(super) use choice::choose;
+
 use bytemuck::{Pod, Zeroable};
 
 use super::{PipelineError, tiles::Job};
@@ -15,17 +17,21 @@ use crate::{
     gpu::{Buffer, Gpu},
     io::Source,
     model::{FitSettings, SurfaceMode},
-    stage::{FittedLobes, Gathered, HeightField, Refitted},
+    stage::{self, FittedLobes, Gathered, HeightField, Refitted},
 };
 use local::LocalFit;
 use plane::PlaneFit;
 
-/// ρ_d, ρ_s and lobes of every texel, how the fit went and which way of taking the surface was chosen.
-pub(super) fn recover(job: &Job<'_>, settings: &FitSettings, field: &HeightField) -> Result<(Svbrdf, Fit, Choice), PipelineError> {
-    let choice = choice::choose(job, settings, field)?;
-    let candidate = choice.chosen();
-    let all = (0..job.source.btf().pairs().len()).collect();
-    let model = Model::new(job, settings, field, candidate, choice.representative, all)?;
+/// ρ_d, ρ_s and lobes of every texel, the surface taken as `choice` has it, and how the fit went.
+pub(super) fn recover(
+    job: &Job<'_>, stages: &Stages, settings: &FitSettings, field: &HeightField, choice: &Choice,
+) -> Result<(Svbrdf, Fit), PipelineError> {
+    let candidate = &choice.chosen();
+    let samples = match candidate.surface {
+        SurfaceMode::Flat | SurfaceMode::Rough => lit_samples(job.source, settings)?,
+        SurfaceMode::Local | SurfaceMode::Auto => (0..job.source.btf().pairs().len()).collect(),
+    };
+    let model = Model::new(job, stages, settings, field, candidate, choice.representative, samples)?;
     let texels = job.for_each_tile("reflectance", model.samples(), |gathered, places| {
         let masked = gathered.masked.read(job.gpu)?;
         let tile = model.fit(&gathered, places)?;
@@ -50,7 +56,41 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings, field: &HeightField
         status: texels.map(|texel| texel.outcome[0]),
         masked: texels.map(|texel| texel.masked),
     };
-    Ok((svbrdf, fit, choice))
+    Ok((svbrdf, fit))
+}
+
+/// The stages of every way of taking the surface, on one device.
+pub(super) struct Stages {
+    brdf_values: stage::BrdfValues,
+    percentile: stage::Percentile,
+    dark_samples: stage::DarkSamples,
+    specular_residual: stage::SpecularResidual,
+    lafortune_fit: stage::LafortuneFit,
+    specular_scale: stage::SpecularScale,
+    seen_surface: stage::SeenSurface,
+    shading: stage::Shading,
+    linear_refit: stage::LinearRefit,
+    lobe_residual: stage::LobeResidual,
+    radiance_error: stage::RadianceError,
+}
+
+impl Stages {
+    /// Builds the kernels.
+    pub fn new(gpu: &Gpu) -> Result<Self, PipelineError> {
+        Ok(Self {
+            brdf_values: stage::BrdfValues::new(gpu)?,
+            percentile: stage::Percentile::new(gpu)?,
+            dark_samples: stage::DarkSamples::new(gpu)?,
+            specular_residual: stage::SpecularResidual::new(gpu)?,
+            lafortune_fit: stage::LafortuneFit::new(gpu)?,
+            specular_scale: stage::SpecularScale::new(gpu)?,
+            seen_surface: stage::SeenSurface::new(gpu)?,
+            shading: stage::Shading::new(gpu)?,
+            linear_refit: stage::LinearRefit::new(gpu)?,
+            lobe_residual: stage::LobeResidual::new(gpu)?,
+            radiance_error: stage::RadianceError::new(gpu)?,
+        })
+    }
 }
 
 /// One way of taking the surface.
@@ -60,15 +100,15 @@ enum Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// Fitted to `samples`, of a surface in the base plane's frame to those that are lit from high enough.
+    /// Fitted to the given samples of the source.
     fn new(
-        job: &Job<'a>, settings: &'a FitSettings, field: &'a HeightField, candidate: &Candidate, representative: Option<[usize; 2]>,
-        samples: Vec<usize>,
+        job: &Job<'a>, stages: &'a Stages, settings: &'a FitSettings, field: &'a HeightField, candidate: &Candidate,
+        representative: Option<[usize; 2]>, samples: Vec<usize>,
     ) -> Result<Self, PipelineError> {
         Ok(match candidate.surface {
-            SurfaceMode::Flat => Self::Plane(PlaneFit::flat(job, settings)?),
-            SurfaceMode::Rough => Self::Plane(PlaneFit::rough(job, settings, representative.unwrap_or_default())?),
-            SurfaceMode::Local | SurfaceMode::Auto => Self::Local(LocalFit::new(job, settings, field, candidate.frame, samples)?),
+            SurfaceMode::Flat => Self::Plane(PlaneFit::flat(job, stages, settings, &samples)),
+            SurfaceMode::Rough => Self::Plane(PlaneFit::rough(job, stages, settings, &samples, representative.unwrap_or_default())?),
+            SurfaceMode::Local | SurfaceMode::Auto => Self::Local(LocalFit::new(job, stages, settings, field, candidate.frame, samples)?),
         })
     }
 
@@ -112,9 +152,8 @@ impl FittedTile {
         let Refitted { diffuse, specular } = &self.coefficients;
         let (diffuse, specular, lobes) = (diffuse.read(gpu)?, specular.read(gpu)?, self.lobes.read(gpu)?);
         let count = masked.len();
-        let of_lobes = |values: &[[f32; 4]], texel: usize| {
-            std::array::from_fn(|lobe| values.get(lobe * count + texel).copied().unwrap_or_default())
-        };
+        let of_lobes =
+            |values: &[[f32; 4]], texel: usize| std::array::from_fn(|lobe| values.get(lobe * count + texel).copied().unwrap_or_default());
         let texel = |texel: usize| Texel {
             diffuse: diffuse[texel],
             specular: of_lobes(&specular, texel),

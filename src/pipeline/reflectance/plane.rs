@@ -1,17 +1,16 @@
 //! Flat and rough surfaces, as the thesis takes them: reflectance in the base plane's frame, ρ_d a quantile of it, one lobe for what is
 //! above. Of a rough surface samples that lie in shadow are left out, and the flattest texel's lobe serves all.
 
-use super::{FittedTile, lit_samples};
+use super::{FittedTile, Stages};
 use crate::{
-    data::{Block, FitStatus, Samples},
-    gpu::{Buffer, Gpu},
-    io::Source,
+    data::{Block, Samples},
+    gpu::Gpu,
     model::FitSettings,
     pipeline::{
         PipelineError, Progress,
         tiles::{Job, run},
     },
-    stage::{self, FittedLobes, Refitted, Tile},
+    stage::{Refitted, Tile},
 };
 
 /// Order statistic that the dark samples of a rough surface are held against.
@@ -20,45 +19,37 @@ const MEDIAN: f64 = 0.5;
 pub(super) struct PlaneFit<'a> {
     gpu: &'a Gpu,
     progress: &'a Progress,
+    stages: &'a Stages,
     settings: &'a FitSettings,
     lit: Vec<usize>,
     samples: Samples,
-    brdf_values: stage::BrdfValues,
-    percentile: stage::Percentile,
-    /// Of a rough surface.
-    dark_samples: Option<stage::DarkSamples>,
-    specular_residual: stage::SpecularResidual,
-    lafortune_fit: stage::LafortuneFit,
-    specular_scale: stage::SpecularScale,
+    is_rough: bool,
     /// (C_x, C_y, C_z, n) of a rough surface's representative texel, for all.
     shared: Option<[f32; 4]>,
 }
 
 impl<'a> PlaneFit<'a> {
     /// Each texel a flat surface of its own.
-    pub fn flat(job: &Job<'a>, settings: &'a FitSettings) -> Result<Self, PipelineError> {
+    pub fn flat(job: &Job<'a>, stages: &'a Stages, settings: &'a FitSettings, samples: &[usize]) -> Self {
         let Job { gpu, source, progress, .. } = *job;
         let btf = source.btf();
-        let lit = lit_samples(source, settings)?;
-        Ok(Self {
+        Self {
             gpu,
             progress,
+            stages,
             settings,
-            samples: Samples::new(lit.iter().map(|&sample| btf.directions(sample)).collect()),
-            lit,
-            brdf_values: stage::BrdfValues::new(gpu)?,
-            percentile: stage::Percentile::new(gpu)?,
-            dark_samples: None,
-            specular_residual: stage::SpecularResidual::new(gpu)?,
-            lafortune_fit: stage::LafortuneFit::new(gpu)?,
-            specular_scale: stage::SpecularScale::new(gpu)?,
+            samples: Samples::new(samples.iter().map(|&sample| btf.directions(sample)).collect()),
+            lit: samples.to_vec(),
+            is_rough: false,
             shared: None,
-        })
+        }
     }
 
     /// A rough surface, with the lobe of the texel at `representative` (column, row).
-    pub fn rough(job: &Job<'a>, settings: &'a FitSettings, [column, row]: [usize; 2]) -> Result<Self, PipelineError> {
-        let mut plane = Self { dark_samples: Some(stage::DarkSamples::new(job.gpu)?), ..Self::flat(job, settings)? };
+    pub fn rough(
+        job: &Job<'a>, stages: &'a Stages, settings: &'a FitSettings, samples: &[usize], [column, row]: [usize; 2],
+    ) -> Result<Self, PipelineError> {
+        let mut plane = Self { is_rough: true, ..Self::flat(job, stages, settings, samples) };
         let (gathered, _) = job.sample(&plane.lit, &[Block { column, row, width: 1, height: 1 }])?;
         let lobe = plane.fit(&gathered.tile)?.lobes.read(job.gpu)?;
         plane.shared = lobe.first().copied();
@@ -70,28 +61,27 @@ impl<'a> PlaneFit<'a> {
     }
 
     pub fn fit(&self, radiance: &Tile) -> Result<FittedTile, PipelineError> {
-        let Self { gpu, progress, settings, samples, .. } = self;
+        let Self { gpu, progress, stages, settings, samples, .. } = self;
         let texels = radiance.texels;
         let size = [texels, samples.len()];
         let quantile = |tile: &Tile, quantile: f64| {
-            run(gpu, progress, "percentile", size, |recorder| self.percentile.record(recorder, tile, quantile))
+            run(gpu, progress, "percentile", size, |recorder| stages.percentile.record(recorder, tile, quantile))
         };
-        let mut reflectance =
-            run(gpu, progress, "brdf_values", size, |recorder| self.brdf_values.record(recorder, radiance, samples))?;
-        if let Some(dark_samples) = &self.dark_samples {
+        let mut reflectance = run(gpu, progress, "brdf_values", size, |recorder| stages.brdf_values.record(recorder, radiance, samples))?;
+        if self.is_rough {
             let median = quantile(&reflectance, MEDIAN)?;
             reflectance =
-                run(gpu, progress, "dark_samples", size, |recorder| dark_samples.record(recorder, &reflectance, &median, settings))?;
+                run(gpu, progress, "dark_samples", size, |recorder| stages.dark_samples.record(recorder, &reflectance, &median, settings))?;
         }
         let diffuse = quantile(&reflectance, settings.diffuse_quantile)?;
         let residual =
-            run(gpu, progress, "specular_residual", size, |recorder| self.specular_residual.record(recorder, &reflectance, &diffuse))?;
+            run(gpu, progress, "specular_residual", size, |recorder| stages.specular_residual.record(recorder, &reflectance, &diffuse))?;
         let fitted = run(gpu, progress, "lafortune_fit", size, |recorder| match self.shared {
-            None => self.lafortune_fit.record(recorder, &residual, samples, texels, settings),
-            Some(lobe) => self.lafortune_fit.record_given(recorder, &residual, samples, texels, lobe),
+            None => stages.lafortune_fit.record(recorder, &residual, samples, texels, settings),
+            Some(lobe) => stages.lafortune_fit.record_given(recorder, &residual, samples, texels, lobe),
         })?;
         let specular = run(gpu, progress, "specular_scale", size, |recorder| {
-            self.specular_scale.record(recorder, &reflectance, samples, &diffuse, &fitted.lobes, settings)
+            stages.specular_scale.record(recorder, &reflectance, samples, &diffuse, &fitted.lobes, settings)
         })?;
         FittedTile::of_lobe(gpu, Refitted { diffuse, specular }, fitted)
     }
