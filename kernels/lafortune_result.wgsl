@@ -33,7 +33,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let state = states[texel];
     var lobe = vec4(0.0, 0.0, 0.0, 1.0);
     if state.amplitude > 0.0 {
-        lobe = vec4(state.point.xyz * pow(state.amplitude, 1.0 / state.point.w), state.point.w);
+        lobe = vec4(state.point.xyz * exp2(min(log2(state.amplitude) / state.point.w, 64.0)), state.point.w);
     }
     lobes[texel] = lobe;
     objectives[texel] = vec2(state.energy, state.objective) / f32(max(energies[texel].valid, 1u));

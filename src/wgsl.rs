@@ -21,6 +21,8 @@ sources! {
     BRDF_VALUES = "kernels" "brdf_values";
     /// Real part of a corner of a complex field.
     CROP_REAL = "kernels" "crop_real";
+    /// Samples in shadow masked.
+    DARK_SAMPLES = "kernels" "dark_samples";
     /// One pass of a Fourier transform.
     FFT = "kernels" "fft";
     /// Kubelka-Munk films.
@@ -39,18 +41,32 @@ sources! {
     HEIGHT_MARCH = "kernels/common" "height_march";
     /// The Lafortune lobe.
     LAFORTUNE = "kernels/common" "lafortune";
-    /// Texels whose Lafortune fit still runs.
+    /// Lafortune fits that still run.
     LAFORTUNE_ACTIVE = "kernels" "lafortune_active";
+    /// Best of each texel's Lafortune fits.
+    LAFORTUNE_CHAMPION = "kernels" "lafortune_champion";
     /// Valid samples and energy of each texel's Lafortune fit.
     LAFORTUNE_ENERGY = "kernels" "lafortune_energy";
     /// One step of the Lafortune fit.
     LAFORTUNE_FIT = "kernels" "lafortune_fit";
+    /// Lit samples and energy of each texel's Lafortune fit in frames.
+    LAFORTUNE_FRAMED_ENERGY = "kernels" "lafortune_framed_energy";
+    /// Sums over samples at the candidates of the Lafortune fits in frames.
+    LAFORTUNE_FRAMED_SUMS = "kernels" "lafortune_framed_sums";
+    /// Sums over samples that the Lafortune fit goes by.
+    LAFORTUNE_GRAM = "kernels/common" "lafortune_gram";
     /// End of the Lafortune fit.
     LAFORTUNE_RESULT = "kernels" "lafortune_result";
-    /// Begin of a descent of the Lafortune fit.
+    /// Begin of the Lafortune fits.
     LAFORTUNE_START = "kernels" "lafortune_start";
     /// State of the Lafortune fit between passes.
     LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// Sums over samples at the candidates of the Lafortune fits.
+    LAFORTUNE_SUMS = "kernels" "lafortune_sums";
+    /// Reflectance once the lobes are known.
+    LINEAR_REFIT = "kernels" "linear_refit";
+    /// Samples whose reflectance stands in the frames of normals.
+    LOCAL_SAMPLES = "kernels/common" "local_samples";
     /// What is left for the next lobe.
     LOBE_RESIDUAL = "kernels" "lobe_residual";
     /// Reflection at a paint's surface.
@@ -73,6 +89,8 @@ sources! {
     PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
     /// The material as a plane.
     PLANE = "shaders" "plane";
+    /// How far the model's radiance is from the measured one.
+    RADIANCE_ERROR = "kernels" "radiance_error";
     /// What the source's camera would have recorded.
     RECONSTRUCT = "kernels" "reconstruct";
     /// Rays against a height field.

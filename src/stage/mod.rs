@@ -1,6 +1,7 @@
 //! Host side of the compute stages, one file each.
 
 mod brdf_values;
+mod dark_samples;
 mod error;
 mod fft;
 mod flatness;
@@ -9,12 +10,15 @@ mod gather;
 mod height_field;
 mod kubelka_munk;
 mod lafortune_fit;
+mod linear_refit;
 mod lobe_residual;
+mod local_samples;
 mod normals;
 mod paint_relief;
 mod pattern;
 mod percentile;
 mod photometric_stereo;
+mod radiance_error;
 mod reconstruct;
 mod scalar;
 mod seen_surface;
@@ -26,6 +30,7 @@ mod synth;
 mod tile;
 
 pub use brdf_values::BrdfValues;
+pub use dark_samples::DarkSamples;
 pub use error::StageError;
 pub use fft::Fft;
 pub use flatness::Flatness;
@@ -34,12 +39,14 @@ pub use gather::{Gather, Gathered};
 pub use height_field::{HeightField, Scene};
 pub use kubelka_munk::KubelkaMunk;
 pub use lafortune_fit::{FittedLobes, LafortuneFit, STARTS};
+pub use linear_refit::{LinearRefit, Refitted};
 pub use lobe_residual::LobeResidual;
 pub use normals::Normals;
 pub use paint_relief::PaintRelief;
 pub use pattern::Pattern;
 pub use percentile::Percentile;
 pub use photometric_stereo::PhotometricStereo;
+pub use radiance_error::RadianceError;
 pub use reconstruct::Reconstruct;
 pub use seen_surface::{Seen, SeenSurface};
 pub use shading::{Shaded, Shading};

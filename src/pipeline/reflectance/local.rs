@@ -29,14 +29,7 @@ impl<'a> LocalFit<'a> {
         job: &Job<'a>, stages: &'a Stages, settings: &'a FitSettings, field: &'a HeightField, frame: Frame, samples: Vec<usize>,
     ) -> Result<Self, PipelineError> {
         let Job { gpu, progress, .. } = *job;
-        Ok(Self {
-            gpu,
-            progress,
-            settings,
-            stages,
-            framed: Framed::new(job, stages, &samples, field, frame)?,
-            samples,
-        })
+        Ok(Self { gpu, progress, settings, stages, framed: Framed::new(job, stages, &samples, field, frame)?, samples })
     }
 
     pub fn samples(&self) -> &[usize] {
@@ -65,7 +58,7 @@ impl<'a> LocalFit<'a> {
                 stages.lobe_residual.record(recorder, &shaded, directions, &seen.normals, &lobes, &coefficients)
             })?;
             let fitted = run(gpu, progress, "lafortune_fit", size, |recorder| {
-                stages.lafortune_fit.record_framed(recorder, &residual, &shaded.shading, directions, &seen.normals, settings)
+                stages.lafortune_fit.record_framed(recorder, &residual, &shaded.shading, directions, &seen.normals, texels, settings)
             })?;
             found.extend(fitted.lobes.read(gpu)?);
             let (of_lobe, ends) = (fitted.objectives.read(gpu)?, fitted.outcomes.read(gpu)?);

@@ -78,7 +78,7 @@ impl<'a> PlaneFit<'a> {
             run(gpu, progress, "specular_residual", size, |recorder| stages.specular_residual.record(recorder, &reflectance, &diffuse))?;
         let fitted = run(gpu, progress, "lafortune_fit", size, |recorder| match self.shared {
             None => stages.lafortune_fit.record(recorder, &residual, samples, texels, settings),
-            Some(lobe) => stages.lafortune_fit.record_given(recorder, &residual, samples, texels, lobe),
+            Some(lobe) => stages.lafortune_fit.record_given(recorder, &residual, samples, texels, lobe, settings),
         })?;
         let specular = run(gpu, progress, "specular_scale", size, |recorder| {
             stages.specular_scale.record(recorder, &reflectance, samples, &diffuse, &fitted.lobes, settings)
