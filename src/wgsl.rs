@@ -47,6 +47,8 @@ sources! {
     LAFORTUNE_START = "kernels" "lafortune_start";
     /// State of the Lafortune fit between passes.
     LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// Whether a sample is no radiance.
+    MASKED = "kernels/common" "masked";
     /// Reflection at a paint's surface.
     MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.
@@ -65,6 +67,12 @@ sources! {
     PERCENTILE = "kernels" "percentile";
     /// Normals and albedo from radiance under known lights.
     PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
+    /// Errors of a picture against its original.
+    PICTURE_ERROR = "kernels" "picture_error";
+    /// Joins the errors of each picture's workgroups.
+    PICTURE_ERROR_SUM = "kernels" "picture_error_sum";
+    /// Sums over the texels of a picture.
+    PICTURE_SUMS = "kernels/common" "picture_sums";
     /// The material as a plane.
     PLANE = "shaders" "plane";
     /// What the source's camera would have recorded.

@@ -13,6 +13,7 @@ crate::suites! {
     pattern,
     percentile,
     photometric_stereo,
+    picture_error,
     plane,
     reconstruct,
     specular_residual,
