@@ -48,4 +48,36 @@ pub enum PipelineError {
         /// The bound that all of them miss.
         min_cos_light: f64,
     },
+    /// A material of another plane than the source's.
+    #[error(
+        "\"{source_name}\" has {} x {} texels and the material {} x {}; compare a material with the source it was recovered from, and with \
+         the same --region",
+        source_size[0], source_size[1], material_size[0], material_size[1]
+    )]
+    SizesDiffer {
+        /// Name of the source.
+        source_name: String,
+        /// Its columns and rows.
+        source_size: [usize; 2],
+        /// The material's.
+        material_size: [usize; 2],
+    },
+    /// A texel outside the plane.
+    #[error("there is no texel {column},{row}: the plane has columns 0 to {} and rows 0 to {}; name one of them", width - 1, height - 1)]
+    NoSuchTexel {
+        /// Its column.
+        column: usize,
+        /// Its row.
+        row: usize,
+        /// Columns there are.
+        width: usize,
+        /// Rows there are.
+        height: usize,
+    },
+    /// A plot that could not be drawn.
+    #[error("the plot could not be drawn: {message}; the figures themselves are in compare.json")]
+    Plot {
+        /// What the library says.
+        message: String,
+    },
 }

@@ -3,6 +3,7 @@
 crate::suites! {
     brdf_values,
     color,
+    compare,
     fft,
     frankot_chellappa,
     gather,
@@ -17,6 +18,7 @@ crate::suites! {
     percentile,
     photographed_sphere,
     photometric_stereo,
+    picture_error,
     pigments,
     plane,
     reconstruct,
