@@ -77,7 +77,7 @@ fn a_comparison_has_its_figures_and_pictures(gpu: &Gpu) {
     let steps = image::open(folder.join("compared/texel.png")).expect("is PNG");
     assert_eq!((steps.width(), steps.height()), (4 * 14 - 4, 2 * 8 - 4));
     let plot = fs::read_to_string(folder.join("compared/errors.svg")).expect("is there");
-    assert!(plot.starts_with("<svg") && ["relative RMS error", "PSNR / dB", "mean signed error / %", "θ / degrees"].iter().all(|text| plot.contains(text)));
+    assert!(plot.starts_with("<svg") && ["relative RMS error", "PSNR / dB", "mean signed error / %", "θ of view or light / degrees"].iter().all(|text| plot.contains(text)));
 
     // The same again in its place, without relief, and less well.
     succeed(gpu, folder, &["compare", "btf.zarr", "material.zarr", "-o", "compared", "--no-relief", "--memory", "1MiB"]);

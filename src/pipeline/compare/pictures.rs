@@ -94,13 +94,16 @@ impl Job<'_> {
         report.table("By θ of the light", "", &header, &rows(by_light_elevation));
         let thetas = |groups: &[AtElevation]| groups.iter().map(|group| group.theta_degrees).collect::<Vec<_>>();
         let (views, lights) = (thetas(by_view_elevation), thetas(by_light_elevation));
-        let header: Vec<String> = ["view \\ light".to_owned()].into_iter().chain(lights.iter().map(f64::to_string)).collect();
+        if views.len() == 1 || lights.len() == 1 {
+            return;
+        }
+        let header: Vec<String> = ["light \\ view".to_owned()].into_iter().chain(views.iter().map(f64::to_string)).collect();
         let cell = |view: f64, light: f64| {
             let found = by_view_and_light_elevation.iter().find(|at| at.view_theta_degrees == view && at.light_theta_degrees == light);
             found.map_or_else(String::new, |at| format!("{} ({})", number(at.quality.relative_rms, 3), percent(at.quality.bias)))
         };
-        let row = |view: &f64| [view.to_string()].into_iter().chain(lights.iter().map(|light| cell(*view, *light))).collect();
-        let rows: Vec<Vec<String>> = views.iter().map(row).collect();
+        let row = |light: &f64| [light.to_string()].into_iter().chain(views.iter().map(|view| cell(*view, *light))).collect();
+        let rows: Vec<Vec<String>> = lights.iter().map(row).collect();
         report.table("By θ of both", "Relative RMS error, and the mean signed error in brackets.", &header, &rows);
     }
 
@@ -218,6 +221,9 @@ impl Job<'_> {
             ("specular part", ["3 less ρ_d, no less than 0", "ρ_s lobe"], steps.specular),
             ("mean of the channels", ["4 mean of 3", "5 fitted lobe"], steps.mean),
         ];
+        // Few views are drawn higher.
+        let btf = self.source.btf();
+        let higher = (btf.lights().len() / (4 * btf.views().len())).max(1);
         let mut rows = ["measurement", "material"].map(|label| Row { label: label.to_owned(), cells: Vec::new() });
         let mut headings = Vec::new();
         for (heading, notes, step) in columns {
@@ -225,10 +231,10 @@ impl Job<'_> {
             let white = percentile(&step);
             headings.push(format!("{heading}, white is {white:.3}"));
             for ((row, note), measurement) in rows.iter_mut().zip(notes).zip(&step) {
-                row.cells.push(Cell {
-                    picture: measurement.map(|value| value.map_or([0.0; 4], |rgb| scaled(rgb, white))),
-                    note: note.to_owned(),
+                let picture = Map::from_fn(measurement.width(), higher * measurement.height(), |light, row| {
+                    measurement[(light, row / higher)].map_or([0.0; 4], |rgb| scaled(rgb, white))
                 });
+                row.cells.push(Cell { picture, note: note.to_owned() });
             }
         }
         Figure {

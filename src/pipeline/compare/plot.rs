@@ -63,8 +63,7 @@ fn panel(area: &DrawingArea<SVGBackend<'_>, Shift>, quantity: &Quantity, compari
     let points = |groups: &[AtElevation]| -> Vec<(f64, f64)> {
         groups.iter().filter_map(|group| Some((group.theta_degrees, (quantity.value)(&group.quality)?))).collect()
     };
-    let lines =
-        [("of the view", VIEW, points(&comparison.by_view_elevation)), ("of the light", LIGHT, points(&comparison.by_light_elevation))];
+    let lines = [("view", VIEW, points(&comparison.by_view_elevation)), ("light", LIGHT, points(&comparison.by_light_elevation))];
     let values = || lines.iter().flat_map(|(_, _, points)| points);
     let [low, high] = values()
         .map(|&(_, value)| value)
@@ -88,7 +87,7 @@ fn panel(area: &DrawingArea<SVGBackend<'_>, Shift>, quantity: &Quantity, compari
         .map_err(|error| failed(&error))?;
     chart
         .configure_mesh()
-        .x_desc("θ / degrees")
+        .x_desc("θ of view or light / degrees")
         .x_labels(6)
         .y_labels(8)
         .x_label_formatter(&|theta| format!("{theta:.0}"))
