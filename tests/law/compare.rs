@@ -3,7 +3,7 @@ use overpaint::{
     data::{Direction, Grid, Map, Material},
     gpu::Gpu,
     model::{HeightField, Relief, Synth, SynthReflectance},
-    pipeline::{CompareSettings, Comparison, Memory, PipelineError, Progress, Studio, Synthetic, compare},
+    pipeline::{CompareSettings, Comparison, Memory, PipelineError, Progress, Studio, Synthetic, compare, compare_into},
     reference,
 };
 
@@ -11,7 +11,7 @@ use crate::support::{Worst, held::Held, hold, random::Random};
 
 crate::suite! {
     gpu: a_material_reconstructs_its_own_pictures, figures_are_those_of_all_values_in_f64, figures_do_not_depend_on_memory, a_darker_source_finds_the_material_too_bright,
-        relief_can_be_left_out, what_does_not_go_together_is_refused;
+        relief_can_be_left_out, scattered_lights_are_grouped, there_may_be_nothing_to_compare, what_does_not_go_together_is_refused;
 }
 
 const SIZE: [usize; 2] = [23, 17];
@@ -22,9 +22,13 @@ fn directions(grid: &str) -> Vec<Direction> {
 
 /// A glossy relief; its lobes are taken as those of the base plane's frame.
 fn material(gpu: &Gpu) -> Material {
+    material_of(gpu, SIZE)
+}
+
+fn material_of(gpu: &Gpu, size: [usize; 2]) -> Material {
     let recipe = Synth { height_field: HeightField::Bumps, relief: 3.0, reflectance: SynthReflectance::Plastic, seed: 4 };
     let zenith = directions("zenith");
-    let synthetic = Synthetic::new(gpu, "known", recipe, SIZE, zenith.clone(), zenith, &Progress::new(gpu.adapter())).expect("is made");
+    let synthetic = Synthetic::new(gpu, "known", recipe, size, zenith.clone(), zenith, &Progress::new(gpu.adapter())).expect("is made");
     synthetic.truth()
 }
 
@@ -139,6 +143,33 @@ fn relief_can_be_left_out(gpu: &Gpu) {
     assert!(found.overall.relative_rms.is_some_and(|error| error > 0.05), "{found:?}");
     let expected: Vec<_> = source.pictures.iter().map(|picture| Some(picture[(22, 16)].map(f16::to_f32))).collect();
     assert_eq!(found.texel, expected);
+}
+
+/// More angles than a grid has rings.
+fn scattered_lights_are_grouped(gpu: &Gpu) {
+    let lights: Vec<_> = (0..30).map(|index| Direction::from_degrees(2.0 * f64::from(index), 12.0 * f64::from(index))).collect();
+    let source = Held::new(SIZE, &directions("zenith"), &lights, |_, _| Map::from_fn(SIZE[0], SIZE[1], |_, _| [f16::ONE; 3]));
+    let found = compared(gpu, &source, &material(gpu), Memory::default());
+    let groups: Vec<_> = found.by_light_elevation.iter().map(|at| (at.theta_degrees, at.quality.pairs)).collect();
+    // 0, 2, 4; 6, 8; 10, 12, 14; …; 56, 58.
+    let expected: Vec<_> = (0..12).map(|group| (2.5 + 5.0 * f64::from(group), if group % 2 == 0 { 3 } else { 2 })).collect();
+    assert_eq!(groups, expected);
+}
+
+/// Black originals, none at all, and a single texel: figures that mean nothing are left out, and the report is written all the same.
+fn there_may_be_nothing_to_compare(gpu: &Gpu) {
+    let zenith = directions("zenith");
+    for (size, value) in [(SIZE, f16::ZERO), (SIZE, f16::NAN), ([1, 1], f16::ZERO), ([1, 1], f16::from_f32_const(0.25))] {
+        let source = Held::new(size, &zenith, &zenith, |_, _| Map::from_fn(size[0], size[1], |_, _| [value; 3]));
+        let (folder, settings) = (tempfile::tempdir().expect("is made"), CompareSettings { texel: Some([0, 0]), ..CompareSettings::default() });
+        let (material, progress) = (material_of(gpu, size), Progress::new(gpu.adapter()));
+        let found = compare_into(gpu, &source, &material, &settings, Memory::default(), folder.path(), &progress).expect("compares");
+        let is_lit = value > f16::ZERO;
+        assert_eq!((found.overall.relative_rms.is_some(), found.overall.bias.is_some()), (is_lit, is_lit), "{found:?}");
+        assert_eq!((found.overall.psnr_db.is_some(), found.masked > 0), (!value.is_nan(), value.is_nan()), "{found:?}");
+        assert_eq!((found.worst_pairs.len(), found.worst_texels.len()), if is_lit { (1, 1) } else { (0, 0) });
+        assert!(folder.path().join("compare.html").is_file() && folder.path().join("errors.svg").is_file());
+    }
 }
 
 fn what_does_not_go_together_is_refused(gpu: &Gpu) {

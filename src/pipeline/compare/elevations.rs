@@ -20,15 +20,16 @@ pub struct Elevations {
 impl Elevations {
     /// The rings of a grid, or groups of [`WIDTH`] degrees where there are too many.
     pub fn new(directions: &[Direction]) -> Self {
-        let grouped = |theta: fn(f64) -> f64| {
-            let thetas: Vec<f64> = directions.iter().map(|direction| theta(direction.theta.to_degrees())).collect();
+        let grouped = |group: fn(f64) -> f64| {
+            // To a tenth, so that a rounded angle does not fall out of its group.
+            let thetas: Vec<f64> = directions.iter().map(|direction| group((10.0 * direction.theta.to_degrees()).round() / 10.0)).collect();
             let mut distinct = thetas.clone();
             distinct.sort_unstable_by(f64::total_cmp);
             distinct.dedup();
             let of = thetas.iter().map(|theta| distinct.partition_point(|other| other < theta)).collect();
             Self { thetas: distinct, of }
         };
-        let rings = grouped(|theta| (10.0 * theta).round() / 10.0);
+        let rings = grouped(|theta| theta);
         if rings.thetas.len() <= MAX_RINGS { rings } else { grouped(|theta| WIDTH * ((theta / WIDTH).floor() + 0.5)) }
     }
 }

@@ -48,8 +48,8 @@ impl Job<'_> {
 
         let btf = self.source.btf();
         let surface = self.studio.surface(self.material, None, self.progress)?;
-        let zenith = nearest(btf.views().iter().copied().enumerate(), (0.0, 0.0));
-        let oblique = nearest(btf.views().iter().copied().enumerate(), OBLIQUE);
+        let views = || btf.pairs().iter().map(|pair| (pair.view, btf.views()[pair.view]));
+        let (zenith, oblique) = (nearest(views(), (0.0, 0.0)), nearest(views(), OBLIQUE));
         let mut figures = Vec::new();
         if let Some(view) = zenith {
             figures.push(self.sheet("above", "Seen from above", &surface, view)?);
@@ -57,7 +57,9 @@ impl Job<'_> {
         if let Some(view) = oblique.filter(|_| oblique != zenith) {
             figures.push(self.sheet("oblique", "Seen obliquely", &surface, view)?);
         }
-        figures.push(self.worst(&surface)?);
+        if !self.comparison.worst_pairs.is_empty() {
+            figures.push(self.worst(&surface)?);
+        }
         figures.extend(self.texels(zenith)?);
         if let Some(at) = self.settings.texel {
             figures.push(self.texel(at));
