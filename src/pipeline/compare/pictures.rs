@@ -141,7 +141,7 @@ impl Job<'_> {
         let btf = self.source.btf();
         let rows = self.comparison.worst_pairs.iter().take(WORST).map(|pair| {
             let (view, light) = btf.directions(pair.sample);
-            self.row(surface, pair.sample, together(&format!("view {view}")) + ", " + &together(&format!("light {light}")))
+            self.row(surface, pair.sample, together(&format!("view {view}")) + " " + &together(&format!("light {light}")))
         });
         Ok(Figure {
             stem: "worst",
@@ -328,5 +328,5 @@ fn number(value: Option<f64>, digits: usize) -> String {
 }
 
 fn percent(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".to_owned(), |value| format!("{:+.1} %", 100.0 * value))
+    value.map_or_else(|| "–".to_owned(), |value| format!("{:+.1} %", 100.0 * value).replace('-', "−"))
 }
