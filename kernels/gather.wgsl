@@ -1,7 +1,7 @@
 // Turns samples as readers deliver them into octets and masks those that are no radiance: a sample of a texel of which any
-// channel is NaN, infinite or negative becomes -1 in all three. Works on the bits, since a shader may take it that no float
-// is NaN. One thread an octet of one texel. Twin: reference::gather.
+// channel is NaN, infinite or negative becomes -1 in all three. One thread an octet of one texel. Twin: reference::gather.
 #import thread
+#import masked
 
 struct Params {
     texels: u32,
@@ -32,8 +32,7 @@ fn sample_at(sample: u32, texel: u32) -> vec4<u32> {
     }
     let red = 3u * sample * params.texels + texel;
     let bits = vec3(half_at(red), half_at(red + params.texels), half_at(red + 2u * params.texels));
-    // Infinity is 0x7c00; NaN and all with the sign bit lie above, of which -0 alone is a radiance.
-    if any((bits >= vec3(0x7c00u)) & (bits != vec3(0x8000u))) {
+    if is_masked(bits) {
         return vec4(vec3(MINUS_ONE), 1u);
     }
     return vec4(bits & vec3(0x7fffu), 0u);

@@ -69,6 +69,8 @@ sources! {
     LOCAL_SAMPLES = "kernels/common" "local_samples";
     /// What is left for the next lobe.
     LOBE_RESIDUAL = "kernels" "lobe_residual";
+    /// Whether a sample is no radiance.
+    MASKED = "kernels/common" "masked";
     /// Reflection at a paint's surface.
     MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.
@@ -87,6 +89,12 @@ sources! {
     PERCENTILE = "kernels" "percentile";
     /// Normals and albedo from radiance under known lights.
     PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
+    /// Errors of a picture against its original.
+    PICTURE_ERROR = "kernels" "picture_error";
+    /// Joins the errors of each picture's workgroups.
+    PICTURE_ERROR_SUM = "kernels" "picture_error_sum";
+    /// Sums over the texels of a picture.
+    PICTURE_SUMS = "kernels/common" "picture_sums";
     /// The material as a plane.
     PLANE = "shaders" "plane";
     /// How far the model's radiance is from the measured one.

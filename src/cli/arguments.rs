@@ -114,10 +114,10 @@ pub fn region(text: &str) -> Result<Block, String> {
     parse().ok_or_else(|| "expected X,Y,WxH in texels, such as 64,0,128x128, W and H of 1 or more".to_owned())
 }
 
-/// `X,Y` of a texel.
+/// `X,Y`: column and row of a texel.
 pub fn texel(text: &str) -> Result<[usize; 2], String> {
-    let texel = text.split_once(',').and_then(|(column, row)| Some([column.trim().parse().ok()?, row.trim().parse().ok()?]));
-    texel.ok_or_else(|| "expected X,Y of a texel, column and row from 0, such as 12,40".to_owned())
+    let parse = || text.split_once(',').and_then(|(column, row)| Some([column.trim().parse().ok()?, row.trim().parse().ok()?]));
+    parse().ok_or_else(|| "expected X,Y: column and row from the upper left, such as 20,31".to_owned())
 }
 
 /// An integer of 1 or more.

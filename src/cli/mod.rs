@@ -6,6 +6,7 @@
 mod adapters;
 mod arguments;
 mod bar;
+mod compare;
 mod demo;
 mod error;
 mod fit;
@@ -51,6 +52,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Compare(compare::Compare),
     Demo(demo::Demo),
     Fit(fit::Fit),
     Import(import::Import),
@@ -68,6 +70,7 @@ enum Command {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError> {
     let Cli { session, command } = Cli::try_parse_from(arguments)?;
     match command {
+        Command::Compare(compare) => compare.run(&session),
         Command::Demo(demo) => demo.run(&session),
         Command::Fit(fit) => fit.run(&session),
         Command::Import(import) => import.run(&session),

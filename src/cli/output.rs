@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::CliError;
-use crate::io;
+use crate::{io, pipeline};
 
 /// Checks that a file of this path can be made: its folder is there and may be written, and it is no folder itself.
 pub fn check_file(path: &Path) -> Result<(), CliError> {
@@ -23,6 +23,13 @@ pub fn check_material(path: &Path) -> Result<(), CliError> {
 pub fn check_dataset(path: &Path) -> Result<(), CliError> {
     io::dataset::check_target(path)?;
     check_parent(path)
+}
+
+/// Checks that a comparison can be written into this folder: it is empty or holds an older comparison, and may be written, or it can be made.
+pub fn check_comparison(path: &Path) -> Result<(), CliError> {
+    pipeline::check_comparison(path)?;
+    // A file of the folder stands for all, as far as it is there.
+    if path.is_dir() { check_parent(&path.join("compare.json")) } else { check_parent(path) }
 }
 
 fn check_parent(path: &Path) -> Result<(), CliError> {

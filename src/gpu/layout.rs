@@ -69,11 +69,11 @@ impl GpuValue for [f16; 8] {
 /// Fields that start with `_` are padding.
 #[macro_export]
 macro_rules! gpu_struct {
-    ($(#[$meta:meta])* $vis:vis struct $name:ident { $($(#[$field_meta:meta])* $field:ident : $ty:ty),* $(,)? }) => {
+    ($(#[$meta:meta])* $vis:vis struct $name:ident { $($(#[$field_meta:meta])* $field_vis:vis $field:ident : $ty:ty),* $(,)? }) => {
         $(#[$meta])*
         #[repr(C)]
         #[derive(Debug, Clone, Copy, Default, bytemuck::Pod, bytemuck::Zeroable)]
-        $vis struct $name { $($(#[$field_meta])* $field: $ty),* }
+        $vis struct $name { $($(#[$field_meta])* $field_vis $field: $ty),* }
 
         impl $crate::gpu::GpuValue for $name {
             fn fields() -> Vec<$crate::gpu::Field> {

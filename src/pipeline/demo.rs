@@ -110,7 +110,7 @@ impl Job<'_> {
                 self.source.btf().lights()[light]
             ),
             columns: ["top view", "normals", "height"].map(String::from).to_vec(),
-            rows: vec![Row { label: "", cells }],
+            rows: vec![Row { label: String::new(), cells }],
         })
     }
 
@@ -128,8 +128,8 @@ impl Job<'_> {
     fn comparison(&self, stem: &'static str, title: &'static str, view: (f64, f64)) -> Result<Figure, PipelineError> {
         let btf = self.source.btf();
         let view = nearest(btf.views(), view);
-        let mut rows =
-            ["original", "positive difference", "negative difference", "reconstruction"].map(|label| Row { label, cells: Vec::new() });
+        let mut rows = ["original", "positive difference", "negative difference", "reconstruction"]
+            .map(|label| Row { label: label.to_owned(), cells: Vec::new() });
         let mut columns = Vec::new();
         let surface = self.studio.surface(self.material, None, self.progress)?;
         for theta in LIGHTS {
@@ -179,7 +179,7 @@ impl Job<'_> {
                 let layer = Layer { roughness: ROUGHNESS, ..Layer::new(Paint::from(pigment), thickness, RELIEF * thickness) };
                 cells.push(Cell { picture: render(Some(&Painting { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
             }
-            rows.push(Row { label: name, cells });
+            rows.push(Row { label: name.to_owned(), cells });
         }
         Ok(Figure {
             stem: "painted",

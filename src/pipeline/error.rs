@@ -36,20 +36,6 @@ pub enum PipelineError {
     /// A map came back in another shape than it was asked for: a bug of this program.
     #[error(transparent)]
     Shape(#[from] ShapeError),
-    /// A texel was named that is not there.
-    #[error(
-        "the plane has {width} x {height} texels; there is no texel {column},{row}. Name a column from 0 and a row from 0, the top row"
-    )]
-    NoSuchTexel {
-        /// Named column.
-        column: usize,
-        /// Named row.
-        row: usize,
-        /// Columns that there are.
-        width: usize,
-        /// Rows that there are.
-        height: usize,
-    },
     /// Every light is too low for the reflectance to be computed.
     #[error(
         "all {samples} samples of \"{source_name}\" have lights lower than cos θ = {min_cos_light}, so that no reflectance can be computed. Lower min_cos_light"
@@ -61,5 +47,37 @@ pub enum PipelineError {
         samples: usize,
         /// The bound that all of them miss.
         min_cos_light: f64,
+    },
+    /// A material of another plane than the source's.
+    #[error(
+        "\"{source_name}\" has {} x {} texels and the material {} x {}; compare a material with the source it was recovered from, and with \
+         the same --region",
+        source_size[0], source_size[1], material_size[0], material_size[1]
+    )]
+    SizesDiffer {
+        /// Name of the source.
+        source_name: String,
+        /// Its columns and rows.
+        source_size: [usize; 2],
+        /// The material's.
+        material_size: [usize; 2],
+    },
+    /// A texel outside the plane.
+    #[error("there is no texel {column},{row}: the plane has columns 0 to {} and rows 0 to {}; name one of them", width - 1, height - 1)]
+    NoSuchTexel {
+        /// Its column.
+        column: usize,
+        /// Its row.
+        row: usize,
+        /// Columns there are.
+        width: usize,
+        /// Rows there are.
+        height: usize,
+    },
+    /// A plot that could not be drawn.
+    #[error("the plot could not be drawn: {message}; the figures themselves are in compare.json")]
+    Plot {
+        /// What the library says.
+        message: String,
     },
 }

@@ -1,5 +1,6 @@
 //! Chains stages: owns buffers, cuts a source into tiles, submits, and reports progress.
 
+mod compare;
 mod demo;
 mod error;
 mod export;
@@ -14,6 +15,9 @@ mod studio;
 mod synth;
 mod tiles;
 
+pub use compare::{
+    AtElevation, AtElevations, CompareSettings, Comparison, PairQuality, Quality, TexelError, check_comparison, compare, compare_into,
+};
 pub use demo::{REPORT, demo};
 pub use error::PipelineError;
 pub use export::export_tree;

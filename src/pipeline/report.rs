@@ -21,7 +21,7 @@ pub struct Cell {
 #[derive(Debug)]
 pub struct Row {
     /// What stands at the left; nothing if empty.
-    pub label: &'static str,
+    pub label: String,
     /// The pictures, all of one size.
     pub cells: Vec<Cell>,
 }
@@ -73,9 +73,10 @@ th { font-weight: normal; color: #444; }
 .pictures .label { width: 7rem; padding-right: 0.6rem; overflow-wrap: break-word; text-align: left; vertical-align: middle; }
 .pictures img { width: 100%; height: auto; display: block; }
 img.small { image-rendering: pixelated; }
-.stages td, .stages th { padding: 0.15rem 1rem 0.15rem 0; text-align: right; white-space: nowrap; }
+.drawing { width: 100%; height: auto; display: block; }
+.numbers td, .numbers th { padding: 0.15rem 1rem 0.15rem 0; text-align: right; white-space: nowrap; }
+.numbers thead th { border-bottom: 1px solid #999; }
 .stages td:first-child, .stages th:first-child, .stages td:last-child, .stages th:last-child { text-align: left; }
-.stages thead th { border-bottom: 1px solid #999; }
 </style>
 "#;
 
@@ -106,12 +107,12 @@ impl<'f> Report<'f> {
         for (row_number, row) in rows.iter().enumerate() {
             table.push_str("<tr>");
             if labelled {
-                table.push_str(&format!("<th class=\"label\">{}</th>", escape(row.label).replace('/', "/<wbr>")));
+                table.push_str(&format!("<th class=\"label\">{}</th>", escape(&row.label).replace('/', "/<wbr>")));
             }
             for (column, cell) in row.cells.iter().enumerate() {
                 let file = format!("{stem}_{row_number}_{column}.png");
                 io::picture::write(&self.folder.join(&file), &cell.picture)?;
-                let alt = [row.label, columns.get(column).map_or("", String::as_str)].join(" ");
+                let alt = [row.label.as_str(), columns.get(column).map_or("", String::as_str)].join(" ");
                 let class = if cell.picture.width() <= SMALL { " class=\"small\"" } else { "" };
                 let (width, height) = (cell.picture.width(), cell.picture.height());
                 let image = format!("<img{class} src=\"{file}\" width=\"{width}\" height=\"{height}\" alt=\"{}\">", escape(alt.trim()));
@@ -126,6 +127,30 @@ impl<'f> Report<'f> {
         self.html +=
             &format!("<h2>{title}</h2>\n<figure>\n{table}<figcaption>Figure {number}. {caption} {sheet}</figcaption>\n</figure>\n");
         Ok(())
+    }
+
+    /// Adds a drawing, as the SVG file `stem`.svg beside the page.
+    ///
+    /// # Errors
+    /// [`PipelineError`] if it cannot be written.
+    pub fn drawing(&mut self, stem: &str, title: &str, caption: &str, svg: &str) -> Result<(), PipelineError> {
+        io::write(&self.folder.join(format!("{stem}.svg")), svg.as_bytes())?;
+        self.figures += 1;
+        let (number, title, caption) = (self.figures, escape(title), escape(caption));
+        let image = format!("<img class=\"drawing\" src=\"{stem}.svg\" alt=\"{title}\">");
+        self.html += &format!("<h2>{title}</h2>\n<figure>\n{image}\n<figcaption>Figure {number}. {caption}</figcaption>\n</figure>\n");
+        Ok(())
+    }
+
+    /// Adds a table of numbers; `caption` may be empty.
+    pub fn table(&mut self, title: &str, caption: &str, header: &[String], rows: &[Vec<String>]) {
+        let cells = |tag: &str, cells: &[String]| cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell))).collect::<String>();
+        let body: String = rows.iter().map(|row| format!("<tr>{}</tr>\n", cells("td", row))).collect();
+        let (title, caption, header) = (escape(title), escape(caption), cells("th", header));
+        self.html += &format!(
+            "<h2>{title}</h2>\n<figure>\n<table class=\"numbers\">\n<thead><tr>{header}</tr></thead>\n{body}</table>\n\
+             <figcaption>{caption}</figcaption>\n</figure>\n"
+        );
     }
 
     /// Adds the table of stages and writes the page as `name`; returns its path.
@@ -147,7 +172,7 @@ impl<'f> Report<'f> {
         );
         let html = &mut self.html;
         html.push_str(
-            "<h2>Stages</h2>\n<figure>\n<table class=\"stages\">\n<thead><tr><th>stage</th><th>wall s</th><th>share</th><th>adapter s</th>",
+            "<h2>Stages</h2>\n<figure>\n<table class=\"numbers stages\">\n<thead><tr><th>stage</th><th>wall s</th><th>share</th><th>adapter s</th>",
         );
         html.push_str("<th>texels</th><th>samples</th><th>ran on</th></tr></thead>\n");
         for stage in &stages.stages {

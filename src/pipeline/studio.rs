@@ -107,6 +107,16 @@ impl<'g> Studio<'g> {
         Ok(Map::new(width, height, picture.read(self.gpu)?)?)
     }
 
+    /// The device.
+    pub(super) fn gpu(&self) -> &'g Gpu {
+        self.gpu
+    }
+
+    /// The stage behind [`Self::reconstruct`], for those that record many pictures at once.
+    pub(super) fn reconstruct_stage(&self) -> &stage::Reconstruct {
+        &self.reconstruct
+    }
+
     /// The material as a plane in space: linear RGBA, premultiplied, `[row][column]`.
     ///
     /// # Errors

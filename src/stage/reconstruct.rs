@@ -37,14 +37,29 @@ impl Reconstruct {
     pub fn record(
         &self, recorder: &mut Recorder<'_>, surface: &Surface, view: Direction, light: Direction, relief: Relief,
     ) -> Result<Buffer<[f32; 4]>, GpuError> {
-        let [width, height] = surface.field.size;
-        let texels = width as usize * height as usize;
         let gpu = recorder.gpu();
-        let scene = surface.scene(gpu, view, light, relief)?;
-        let picture = gpu.fresh("reconstructed picture", texels)?;
-        let mut binds = surface.binds(&scene);
-        binds.push(bind("picture", &picture));
-        recorder.dispatch(&self.kernel, &binds, Grid::threads(texels))?;
+        let [width, height] = surface.field.size;
+        let picture = gpu.fresh("reconstructed picture", width as usize * height as usize)?;
+        self.record_into(recorder, surface, view, light, relief, &picture)?;
         Ok(picture)
+    }
+
+    /// As [`Self::record`], over a picture that was there before.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the adapter is out of memory.
+    ///
+    /// # Panics
+    /// If the picture has not one pixel a texel: the host's bug.
+    pub fn record_into(
+        &self, recorder: &mut Recorder<'_>, surface: &Surface, view: Direction, light: Direction, relief: Relief,
+        picture: &Buffer<[f32; 4]>,
+    ) -> Result<(), GpuError> {
+        let texels = surface.field.size[0] as usize * surface.field.size[1] as usize;
+        assert_eq!(picture.len(), texels, "pixels of the picture");
+        let scene = surface.scene(recorder.gpu(), view, light, relief)?;
+        let mut binds = surface.binds(&scene);
+        binds.push(bind("picture", picture));
+        recorder.dispatch(&self.kernel, &binds, Grid::threads(texels))
     }
 }

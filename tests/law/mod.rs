@@ -3,6 +3,7 @@
 crate::suites! {
     brdf_values,
     color,
+    compare,
     fft,
     flatness,
     frankot_chellappa,
@@ -19,6 +20,7 @@ crate::suites! {
     percentile,
     photographed_sphere,
     photometric_stereo,
+    picture_error,
     pigments,
     plane,
     reconstruct,

@@ -15,6 +15,7 @@ crate::suites! {
     pattern,
     percentile,
     photometric_stereo,
+    picture_error,
     plane,
     reconstruct,
     seen_surface,

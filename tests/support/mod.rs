@@ -1,6 +1,7 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
 pub mod files;
+pub mod held;
 pub mod known;
 pub mod npy;
 pub mod probe;

@@ -1,0 +1,85 @@
+//! `overpaint compare`.
+
+use std::{fmt::Write, path::PathBuf};
+
+use clap::Args;
+
+use super::{
+    CliError, arguments,
+    memory::{AdapterMemoryArguments, MemoryArguments},
+    output,
+    reading::ReadingArguments,
+    say,
+    session::SessionArguments,
+};
+use crate::{
+    io,
+    model::Relief,
+    pipeline::{self, AtElevation, CompareSettings, Comparison},
+};
+
+/// Show how well a material reconstructs the source it was recovered from, over all pairs of a view and a light.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  overpaint compare cloth.zip cloth.zarr -o cloth-compared
+  overpaint compare cloth.zip corner.zarr -o corner-compared --region 0,0,64x64 --texel 20,31
+
+DIR gets compare.html, its plot and pictures, and all figures as compare.json.")]
+pub struct Compare {
+    /// The BTF: what `fit` takes
+    source: PathBuf,
+    /// The material that `fit` made of it
+    material: PathBuf,
+    /// Folder for compare.html, compare.json and the pictures
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Reconstruct as if the material were flat: no displacement, no shadows
+    #[arg(long)]
+    no_relief: bool,
+    /// Show the measurement of this texel, column and row from the upper left, and each step of its fit
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = arguments::texel)]
+    texel: Option<[usize; 2]>,
+    #[command(flatten)]
+    memory: MemoryArguments,
+    #[command(flatten)]
+    adapter_memory: AdapterMemoryArguments,
+    #[command(flatten)]
+    reading: ReadingArguments,
+}
+
+impl Compare {
+    pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
+        let defaults = CompareSettings::default();
+        let relief = if self.no_relief { Relief { displace: false, shadow: false, ..defaults.relief } } else { defaults.relief };
+        let settings = CompareSettings { relief, texel: self.texel };
+        output::check_comparison(&self.output)?;
+        let material = io::material::load(&self.material)?;
+        let source = io::open_with(&self.source, &self.reading.options())?;
+        let session = session.open()?;
+        let memory = self.memory.memory(Some(self.adapter_memory));
+        let comparison =
+            pipeline::compare_into(&session.gpu, source.as_ref(), &material, &settings, memory, &self.output, &session.progress)?;
+        let times = session.finish()?;
+        say(&format!("{times}\n{}\nwrote {}", summary(&comparison), self.output.join("compare.html").display()))
+    }
+}
+
+/// The figures over all pairs, and the bias at each θ of the views.
+fn summary(comparison: &Comparison) -> String {
+    let or = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| "–".to_owned(), text);
+    let percent = |value: Option<f64>| or(value, &|value| format!("{:+.2} %", 100.0 * value));
+    let overall = &comparison.overall;
+    let mut text = format!(
+        "relative RMS {}  PSNR {}  bias {}  over {} pairs\nbias by view elevation",
+        or(overall.relative_rms, &|value| format!("{value:.4}")),
+        or(overall.psnr_db, &|value| format!("{value:.2} dB")),
+        percent(overall.bias),
+        overall.pairs
+    );
+    for AtElevation { theta_degrees, quality } in &comparison.by_view_elevation {
+        // Writing into a string cannot fail.
+        write!(text, "\n  θ {theta_degrees:>4}  {:>9}", percent(quality.bias)).ok();
+    }
+    text
+}
