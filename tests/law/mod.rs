@@ -8,6 +8,7 @@ crate::suites! {
     gather,
     kubelka_munk,
     lafortune_fit,
+    lafortune_recovery,
     masked,
     microfacet,
     normals,
