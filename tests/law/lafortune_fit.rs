@@ -19,7 +19,8 @@ crate::suite! {
         exponents_keep_to_their_bounds, masked_values_do_not_matter;
 }
 
-fn fit(gpu: &Gpu, residual: &[[f16; OCTET]], samples: &Samples, settings: &FitSettings) -> FittedLobes {
+/// The stage by itself, on residuals `[octet][texel]`.
+pub fn fit(gpu: &Gpu, residual: &[[f16; OCTET]], samples: &Samples, settings: &FitSettings) -> FittedLobes {
     let stage = LafortuneFit::new(gpu).expect("builds");
     let mut recorder = gpu.recorder();
     let buffer = gpu.upload("residual", residual).expect("fits");

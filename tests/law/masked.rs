@@ -15,18 +15,18 @@ crate::suite! {
 }
 
 /// What the stages make of a tile of reflectance.
-struct Recovered {
-    reflectance: Vec<f64>,
-    residual: Vec<f64>,
-    diffuse: Vec<[f32; 4]>,
-    specular: Vec<[f32; 4]>,
-    lobes: Vec<[f32; 4]>,
-    objectives: Vec<[f32; 2]>,
-    outcomes: Vec<[u32; 2]>,
+pub struct Recovered {
+    pub reflectance: Vec<f64>,
+    pub residual: Vec<f64>,
+    pub diffuse: Vec<[f32; 4]>,
+    pub specular: Vec<[f32; 4]>,
+    pub lobes: Vec<[f32; 4]>,
+    pub objectives: Vec<[f32; 2]>,
+    pub outcomes: Vec<[u32; 2]>,
 }
 
 /// From a tile of radiance.
-fn recover(gpu: &Gpu, radiance: &stage::Tile, samples: &Samples, settings: &FitSettings) -> Recovered {
+pub fn recover(gpu: &Gpu, radiance: &stage::Tile, samples: &Samples, settings: &FitSettings) -> Recovered {
     let mut recorder = gpu.recorder();
     let stage = stage::BrdfValues::new(gpu).expect("builds");
     let reflectance = stage.record(&mut recorder, radiance, samples).expect("records");
@@ -34,7 +34,7 @@ fn recover(gpu: &Gpu, radiance: &stage::Tile, samples: &Samples, settings: &FitS
     recover_from_reflectance(gpu, &reflectance, samples, settings)
 }
 
-fn recover_from_reflectance(gpu: &Gpu, reflectance: &stage::Tile, samples: &Samples, settings: &FitSettings) -> Recovered {
+pub fn recover_from_reflectance(gpu: &Gpu, reflectance: &stage::Tile, samples: &Samples, settings: &FitSettings) -> Recovered {
     let texels = reflectance.texels;
     let mut recorder = gpu.recorder();
     let stage = stage::Percentile::new(gpu).expect("builds");
@@ -190,7 +190,7 @@ fn texels_with_little_left_are_defined(gpu: &Gpu) {
 }
 
 /// No value that is not finite, no exponent out of bounds, no lobe that is worse than none.
-fn assert_finite(found: &Recovered, settings: &FitSettings) {
+pub fn assert_finite(found: &Recovered, settings: &FitSettings) {
     let [least, greatest] = settings.exponents.map(|exponent| exponent as f32);
     for texel in 0..found.lobes.len() {
         let (lobe, [without, with]) = (found.lobes[texel], found.objectives[texel]);

@@ -10,6 +10,7 @@ crate::suites! {
     gather,
     kubelka_munk,
     lafortune_fit,
+    lafortune_recovery,
     lobe_residual,
     masked,
     microfacet,

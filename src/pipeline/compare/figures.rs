@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{elevations::Elevations, measure::Sums};
+use super::{elevations::Elevations, measure::Sums, texel::Framed};
 use crate::{
     data::{Btf, Direction, Map},
     gpu::AdapterSummary,
