@@ -1,21 +1,22 @@
-// One step of Levenberg-Marquardt for each texel's Lafortune lobe: evaluate the candidate, accept or reject it, propose the
-// next. Minimises E = sum_k (A (k . p_k)^n - s_k)^2 over A, the unit vector k and nu = ln n (Lafortune et al. 1997; thesis
+// One step of Levenberg-Marquardt for each running fit of a Lafortune lobe: accept or reject the candidate, propose the next.
+// Minimises E = sum_k (A (k . p_k)^n - s_k)^2 over A, the unit vector k and nu = ln n (Lafortune et al. 1997; thesis
 // section 3.2.2, step 5), with p_k = w_i * w_o by components and s_k the mean specular residual, over the samples that
-// are not masked. One thread a texel.
+// are not masked. One thread a fit.
 //
-// One fused pass sums the Gram matrix of (m, w p, l, r) with m = (k . p)^n, w = m/(k . p), l = m ln(k . p), r = A m - s;
+// lafortune_sums has the Gram matrix of (m, w p, l, r) with m = (k . p)^n, w = m/(k . p), l = m ln(k . p), r = A m - s;
 // it holds all that the step needs: A is linear, so its best value and the objective there follow in closed form
 // (variable projection: Golub and Pereyra 1973), and the Schur complement of A is the curvature of the rest. r is taken
 // with the last A, so that E is a small correction of sum r^2 and no difference of large numbers.
 // Damping by Nielsen 1999. The gauge |k| = 1 is fixed by curvature along k, exponent bounds by an active set.
 // Twin: reference::lafortune_fit.
 #import thread
-#import octet
 #import lafortune_state
+#import lafortune_gram
 
 struct Params {
-    texels: u32,
-    octets: u32,
+    // quads of fits in a slice's array
+    quads: u32,
+    slices: u32,
     // relative decrease below which a descent has converged
     tolerance: f32,
     min_exponent: f32,
@@ -26,23 +27,19 @@ struct Params {
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
-// [sample, filled up to octets], w_i * w_o by components, w = 0; zero past the last sample
-@group(0) @binding(1) var<storage, read> products: array<vec4<f32>>;
-// [octet][texel], mean specular residual as halves, negative where masked
-@group(0) @binding(2) var<storage, read> residual: array<vec4<u32>>;
-// [texel]
-@group(0) @binding(3) var<storage, read_write> states: array<FitState>;
-// number of texels that still run, then those texels
-@group(0) @binding(4) var<storage, read> listed: array<u32>;
+// [slice][quad of listed fits]
+@group(0) @binding(1) var<storage, read> grams: array<Gram>;
+// [start][texel]
+@group(0) @binding(2) var<storage, read_write> states: array<FitState>;
+// number of fits that still run, then those fits
+@group(0) @binding(3) var<storage, read> listed: array<u32>;
 
 const SIZE: u32 = 64u;
-// Octets summed apart before they join the total: keeps the rounding of a sum over n samples near sqrt(n / 256) instead
-// of n units in the last place.
-const BLOCK: u32 = 32u;
 const MAX_DAMPING: f32 = 1e6;
 const MIN_DAMPING: f32 = 1e-7;
 
-struct Gram {
+// The sums of one fit.
+struct Sums {
     // m^2, m r, r^2
     mm: f32,
     mr: f32,
@@ -56,56 +53,22 @@ struct Gram {
     mixed_nu: vec2<f32>,
 }
 
-fn add(gram: ptr<function, Gram>, other: Gram) {
-    (*gram).mm += other.mm;
-    (*gram).mr += other.mr;
-    (*gram).rr += other.rr;
-    (*gram).mg += other.mg;
-    (*gram).rg += other.rg;
-    (*gram).diagonal += other.diagonal;
-    (*gram).mixed += other.mixed;
-    (*gram).mixed_nu += other.mixed_nu;
-}
-
-// A masked sample (s < 0) is taken as one with s = 0 that no lobe reaches, so that each of its terms is 0.
-fn add_sample(gram: ptr<function, Gram>, candidate: vec4<f32>, amplitude: f32, product: vec3<f32>, s: f32) {
-    let base = dot(candidate.xyz, product);
-    let positive = (base > 0.0) & (s >= 0.0);
-    let log_base = log2(select(1.0, base, positive));
-    let m = select(0.0, exp2(candidate.w * log_base), positive);
-    let w = m / select(1.0, base, positive);
-    let g = vec4(w * product, m * log_base * 0.6931471805599453);
-    let r = amplitude * m - max(s, 0.0);
-    (*gram).mm += m * m;
-    (*gram).mr += m * r;
-    (*gram).rr += r * r;
-    (*gram).mg += m * g;
-    (*gram).rg += r * g;
-    (*gram).diagonal += g * g;
-    (*gram).mixed += g.xxyx * g.yzzw;
-    (*gram).mixed_nu += g.yz * g.w;
-}
-
-fn gram_at(texel: u32, candidate: vec4<f32>, amplitude: f32) -> Gram {
-    var total = Gram();
-    for (var block = 0u; block < params.octets; block += BLOCK) {
-        var part = Gram();
-        let end = min(block + BLOCK, params.octets);
-        for (var octet = block; octet < end; octet++) {
-            let s = unpack_octet(residual[octet * params.texels + texel]);
-            let first = octet * 8u;
-            add_sample(&part, candidate, amplitude, products[first].xyz, s.low.x);
-            add_sample(&part, candidate, amplitude, products[first + 1u].xyz, s.low.y);
-            add_sample(&part, candidate, amplitude, products[first + 2u].xyz, s.low.z);
-            add_sample(&part, candidate, amplitude, products[first + 3u].xyz, s.low.w);
-            add_sample(&part, candidate, amplitude, products[first + 4u].xyz, s.high.x);
-            add_sample(&part, candidate, amplitude, products[first + 5u].xyz, s.high.y);
-            add_sample(&part, candidate, amplitude, products[first + 6u].xyz, s.high.z);
-            add_sample(&part, candidate, amplitude, products[first + 7u].xyz, s.high.w);
-        }
-        add(&total, part);
+// The sums of the fit listed at `index`, over all slices.
+fn sums_of(index: u32) -> Sums {
+    let i = index % FITS;
+    var sums = Sums();
+    for (var slice = 0u; slice < params.slices; slice++) {
+        let at = slice * params.quads + index / FITS;
+        sums.mm += grams[at].mm[i];
+        sums.mr += grams[at].mr[i];
+        sums.rr += grams[at].rr[i];
+        sums.mg += vec4(grams[at].mx[i], grams[at].my[i], grams[at].mz[i], grams[at].ml[i]);
+        sums.rg += vec4(grams[at].rx[i], grams[at].ry[i], grams[at].rz[i], grams[at].rl[i]);
+        sums.diagonal += vec4(grams[at].xx[i], grams[at].yy[i], grams[at].zz[i], grams[at].ll[i]);
+        sums.mixed += vec4(grams[at].xy[i], grams[at].xz[i], grams[at].yz[i], grams[at].xl[i]);
+        sums.mixed_nu += vec2(grams[at].yl[i], grams[at].zl[i]);
     }
-    return total;
+    return sums;
 }
 
 // Solves the symmetric positive definite system M x = b by Cholesky. M's diagonal is 1 plus the damping, so its pivots are
@@ -134,15 +97,15 @@ fn solve(diagonal: vec4<f32>, mixed: vec4<f32>, mixed_nu: vec2<f32>, b: vec4<f32
     return vec4(x0, x1, x2, x3);
 }
 
-// Takes the candidate's Gram matrix over as the new point, A at its best.
-fn accept(state: ptr<function, FitState>, gram: Gram, amplitude: f32, objective: f32) {
+// Takes the candidate's sums over as the new point, A at its best.
+fn accept(state: ptr<function, FitState>, sums: Sums, amplitude: f32, objective: f32) {
     let scale = amplitude * (*state).candidate.w;
-    let inverse = 1.0 / gram.mm;
+    let inverse = 1.0 / sums.mm;
     (*state).point = (*state).candidate;
-    (*state).diagonal = scale * scale * (gram.diagonal - gram.mg * gram.mg * inverse);
-    (*state).mixed = scale * scale * (gram.mixed - gram.mg.xxyx * gram.mg.yzzw * inverse);
-    (*state).mixed_nu = scale * scale * (gram.mixed_nu - gram.mg.yz * gram.mg.w * inverse);
-    (*state).gradient = scale * (gram.rg + (amplitude - (*state).amplitude) * gram.mg);
+    (*state).diagonal = scale * scale * (sums.diagonal - sums.mg * sums.mg * inverse);
+    (*state).mixed = scale * scale * (sums.mixed - sums.mg.xxyx * sums.mg.yzzw * inverse);
+    (*state).mixed_nu = scale * scale * (sums.mixed_nu - sums.mg.yz * sums.mg.w * inverse);
+    (*state).gradient = scale * (sums.rg + (amplitude - (*state).amplitude) * sums.mg);
     (*state).amplitude = amplitude;
     (*state).objective = objective;
 }
@@ -185,27 +148,23 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if index >= listed[0] {
         return;
     }
-    let texel = listed[1u + index];
-    // The list may be some steps old.
-    if states[texel].status != RUNNING {
-        return;
-    }
-    var state = states[texel];
-    let gram = gram_at(texel, state.candidate, state.amplitude);
+    let fit = listed[1u + index];
+    var state = states[fit];
+    let sums = sums_of(index);
     let first = state.objective < 0.0;
-    if first && gram.mm == 0.0 {
+    if first && sums.mm == 0.0 {
         state.status = STALLED;
         state.objective = state.energy;
-        states[texel] = state;
+        states[fit] = state;
         return;
     }
     state.iterations += 1u;
-    let correction = gram.mr / max(gram.mm, 1e-30);
+    let correction = sums.mr / max(sums.mm, 1e-30);
     let amplitude = state.amplitude - correction;
-    let objective = max(gram.rr - correction * gram.mr, 0.0);
+    let objective = max(sums.rr - correction * sums.mr, 0.0);
     if first {
-        accept(&state, gram, amplitude, objective);
-    } else if gram.mm > 0.0 && objective < state.objective {
+        accept(&state, sums, amplitude, objective);
+    } else if sums.mm > 0.0 && objective < state.objective {
         let decrease = state.objective - objective;
         let gain = decrease / max(state.foreseen, 1e-30);
         let bend = 2.0 * gain - 1.0;
@@ -214,7 +173,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         if decrease <= params.tolerance * objective {
             state.status = CONVERGED;
         }
-        accept(&state, gram, amplitude, objective);
+        accept(&state, sums, amplitude, objective);
     } else {
         state.damping *= state.growth;
         state.growth *= 2.0;
@@ -223,5 +182,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
     }
     propose(&state);
-    states[texel] = state;
+    states[fit] = state;
 }

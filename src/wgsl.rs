@@ -35,18 +35,24 @@ sources! {
     HEIGHT_MARCH = "kernels/common" "height_march";
     /// The Lafortune lobe.
     LAFORTUNE = "kernels/common" "lafortune";
-    /// Texels whose Lafortune fit still runs.
+    /// Lafortune fits that still run.
     LAFORTUNE_ACTIVE = "kernels" "lafortune_active";
+    /// Best of each texel's Lafortune fits.
+    LAFORTUNE_CHAMPION = "kernels" "lafortune_champion";
     /// Valid samples and energy of each texel's Lafortune fit.
     LAFORTUNE_ENERGY = "kernels" "lafortune_energy";
     /// One step of the Lafortune fit.
     LAFORTUNE_FIT = "kernels" "lafortune_fit";
+    /// Sums over samples that the Lafortune fit goes by.
+    LAFORTUNE_GRAM = "kernels/common" "lafortune_gram";
     /// End of the Lafortune fit.
     LAFORTUNE_RESULT = "kernels" "lafortune_result";
-    /// Begin of a descent of the Lafortune fit.
+    /// Begin of the Lafortune fits.
     LAFORTUNE_START = "kernels" "lafortune_start";
     /// State of the Lafortune fit between passes.
     LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// Sums over samples at the candidates of the Lafortune fits.
+    LAFORTUNE_SUMS = "kernels" "lafortune_sums";
     /// Reflection at a paint's surface.
     MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.

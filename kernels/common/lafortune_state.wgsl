@@ -1,5 +1,5 @@
-// State of one texel's fit between passes. The lobe is A (k . p)^n with |k| = 1: the amplitude A, which is linear, is
-// eliminated at every step, and nu = ln n keeps the exponent positive.
+// State of one fit between passes. The lobe is A (k . p)^n with |k| = 1: the amplitude A, which is linear, is eliminated
+// at every step, and nu = ln n keeps the exponent positive.
 struct FitState {
     // (k, n) of the best point so far
     point: vec4<f32>,
@@ -11,8 +11,6 @@ struct FitState {
     mixed: vec4<f32>,
     // half the gradient of the objective at `point`
     gradient: vec4<f32>,
-    // the best point of earlier starts
-    champion: vec4<f32>,
     // y nu and z nu of the curvature
     mixed_nu: vec2<f32>,
     // objective at `point`, negative before the first evaluation
@@ -23,16 +21,12 @@ struct FitState {
     damping: f32,
     growth: f32,
     foreseen: f32,
-    // objective of `champion`, negative while there is none
-    champion_objective: f32,
     // objective without any lobe: Energy's sum
     energy: f32,
     // FitStatus
     status: u32,
-    // steps tried, over all starts
+    // steps tried, over all descents
     iterations: u32,
-    // A at `champion`
-    champion_amplitude: f32,
 }
 
 // What a texel's fit has to go on.
@@ -48,3 +42,6 @@ const CONVERGED: u32 = 1u;
 const NO_SPECULAR: u32 = 2u;
 const STALLED: u32 = 3u;
 const TOO_FEW_SAMPLES: u32 = 4u;
+
+// Damping of a descent's first step: nearly that of Gauss and Newton.
+const START_DAMPING: f32 = 1e-3;

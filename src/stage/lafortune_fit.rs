@@ -1,15 +1,15 @@
 //! Levenberg-Marquardt fit of one Lafortune lobe a texel (Lafortune et al. 1997; thesis section 3.2.2, step 5). Kernels
-//! `lafortune_energy`, `lafortune_start`, `lafortune_active`, `lafortune_fit` (one step) and `lafortune_result`, twin
-//! [`reference::lafortune_fit`](crate::reference::lafortune_fit).
+//! `lafortune_energy`, `lafortune_start`, `lafortune_active`, `lafortune_sums`, `lafortune_fit` (one step), `lafortune_champion` and
+//! `lafortune_result`, twin [`reference::lafortune_fit`](crate::reference::lafortune_fit).
 //!
 //! The thesis fits (C_x, C_y, C_z, n) as they stand. In these the amplitude |C|^n and the exponent are nearly dependent and
 //! single precision stalls in the valley between them; as A·(k·p)^n with a unit vector k the same family of lobes has its
 //! linear part apart, and the rest is well conditioned. The result is given as C and n again.
 //!
-//! The objective has more than one minimum: a highlight's, and others where the lobe traces the edges of shadows. So each
-//! texel descends a little way from each of [`STARTS`], and the best of those points goes on until it settles. A descent is a
-//! fixed number of passes; every [`STEPS_A_LIST`]th is preceded by a new list of the texels that still run, so that threads
-//! side by side all have work.
+//! The objective has more than one minimum: a highlight's, and others where the lobe traces the edges of shadows. So each texel
+//! descends a little way from each of [`STARTS`] over a part of its samples, the better ones of these go on over all, and the best
+//! of those goes on until it settles. List, sums and step are passes of their own: the list keeps the threads busy as fits
+//! end, `lafortune_sums` is nearly all of the work and spreads over samples as well as fits, `lafortune_fit` is the step itself.
 //!
 //! Masked samples take no part: the objective is the mean over a texel's valid samples, and a texel with fewer than
 //! [`MIN_LOBE_SAMPLES`] gets no lobe.
@@ -35,18 +35,41 @@ gpu_struct! {
         diagonal: [f32; 4],
         mixed: [f32; 4],
         gradient: [f32; 4],
-        champion: [f32; 4],
         mixed_nu: [f32; 2],
         objective: f32,
         amplitude: f32,
         damping: f32,
         growth: f32,
         foreseen: f32,
-        champion_objective: f32,
         energy: f32,
         status: u32,
         iterations: u32,
-        champion_amplitude: f32,
+        _pad: [u32; 2],
+    }
+}
+gpu_struct! {
+    struct Gram {
+        mm: [f32; 4],
+        mr: [f32; 4],
+        rr: [f32; 4],
+        mx: [f32; 4],
+        my: [f32; 4],
+        mz: [f32; 4],
+        ml: [f32; 4],
+        rx: [f32; 4],
+        ry: [f32; 4],
+        rz: [f32; 4],
+        rl: [f32; 4],
+        xx: [f32; 4],
+        yy: [f32; 4],
+        zz: [f32; 4],
+        ll: [f32; 4],
+        xy: [f32; 4],
+        xz: [f32; 4],
+        yz: [f32; 4],
+        xl: [f32; 4],
+        yl: [f32; 4],
+        zl: [f32; 4],
     }
 }
 gpu_struct! {
@@ -56,15 +79,21 @@ gpu_struct! {
     struct EnergyParams { texels: u32, samples: u32, octets: u32, _pad: u32 }
 }
 gpu_struct! {
-    struct StartParams { start: [f32; 4], texels: u32, first: u32, min_valid: u32, _pad: u32 }
+    struct StartParams { texels: u32, fits: u32, min_valid: u32, _pad: u32 }
+}
+gpu_struct! {
+    struct ActiveParams { fits: u32, _pad0: u32, _pad1: u32, _pad2: u32 }
+}
+gpu_struct! {
+    struct SumsParams { texels: u32, octets: u32, stride: u32, quads: u32 }
 }
 gpu_struct! {
     struct StepParams {
-        texels: u32, octets: u32, tolerance: f32, min_exponent: f32, max_exponent: f32, _pad0: u32, _pad1: u32, _pad2: u32,
+        quads: u32, slices: u32, tolerance: f32, min_exponent: f32, max_exponent: f32, _pad0: u32, _pad1: u32, _pad2: u32,
     }
 }
 gpu_struct! {
-    struct ActiveParams { texels: u32, _pad0: u32, _pad1: u32, _pad2: u32 }
+    struct ChampionParams { texels: u32, fits: u32, kept: u32, _pad: u32 }
 }
 gpu_struct! {
     struct ResultParams { texels: u32, _pad0: u32, _pad1: u32, _pad2: u32 }
@@ -79,14 +108,50 @@ pub const STARTS: [[f32; 4]; 4] = [
     [0.577_350_26, 0.577_350_26, 0.577_350_26, 1.0],
 ];
 
-/// Steps of each descent that looks for the best start.
-const EXPLORING_STEPS: u32 = 15;
+/// Fits that a thread of `lafortune_sums` sums for.
+const FITS: usize = 4;
 
-/// Steps between two lists of the running texels: a list costs a small part of a step.
-const STEPS_A_LIST: u32 = 4;
+/// Visited octets that a thread of `lafortune_sums` sums over.
+const SLICE: usize = 64;
 
-/// How much coarser than the last descent's its tolerance is.
-const EXPLORING_TOLERANCE: f64 = 100.0;
+/// Texels with fewer octets see all of them from the first step: a part of few samples says too little.
+const MIN_COARSE_OCTETS: usize = 256;
+
+/// Fits of each texel that go on from the part of the samples to all: the objective has a small minimum at many a sample where the
+/// lobe ends, and the best of some descents is lower than one.
+const KEPT: usize = 3;
+
+/// One descent of all fits that are left.
+#[derive(Debug, Clone, Copy)]
+struct Descent {
+    /// Fits of each texel.
+    fits: usize,
+    /// One of this many octets is visited.
+    stride: usize,
+    /// Steps at most.
+    steps: u32,
+    /// Relative decrease below which it has converged.
+    tolerance: f64,
+}
+
+impl Descent {
+    /// Parts that the visited octets of `octets` are summed in.
+    fn slices(&self, octets: usize) -> usize {
+        octets.div_ceil(self.stride).div_ceil(SLICE)
+    }
+}
+
+/// The descents for `octets`.
+fn descents(octets: usize, settings: &FitSettings) -> Vec<Descent> {
+    let FitSettings { max_iterations, tolerance, .. } = *settings;
+    let coarse = Descent { fits: STARTS.len(), stride: 4, steps: max_iterations.min(10), tolerance: 1e4 * tolerance };
+    let all = Descent { fits: STARTS.len(), stride: 1, steps: max_iterations.min(15), tolerance: 1e2 * tolerance };
+    let last = Descent { fits: 1, stride: 1, steps: max_iterations, tolerance };
+    if octets < MIN_COARSE_OCTETS {
+        return vec![all, last];
+    }
+    vec![coarse, Descent { fits: KEPT, ..all }, last]
+}
 
 /// What the fit of a tile gives.
 #[derive(Debug)]
@@ -105,13 +170,15 @@ pub struct LafortuneFit {
     energy: Kernel,
     start: Kernel,
     active: Kernel,
+    sums: Kernel,
     step: Kernel,
+    champion: Kernel,
     result: Kernel,
 }
 
 impl LafortuneFit {
-    /// Bytes that a fit keeps of each texel between its steps.
-    pub const STATE_BYTES: usize = size_of::<FitState>();
+    /// Bytes that a fit keeps of each texel between its steps, beside what is small against its samples.
+    pub const STATE_BYTES: usize = STARTS.len() * (size_of::<FitState>() + size_of::<Gram>() / FITS);
 
     /// Builds the kernels.
     ///
@@ -123,17 +190,29 @@ impl LafortuneFit {
             Resource::read::<[f16; OCTET]>("residual"),
             Resource::read_write::<Energy>("energies"),
         ];
-        let start =
-            [Resource::uniform::<StartParams>("params"), Resource::read::<Energy>("energies"), Resource::read_write::<FitState>("states")];
+        let start = [
+            Resource::uniform::<StartParams>("params"),
+            Resource::read::<[f32; 4]>("starts"),
+            Resource::read::<Energy>("energies"),
+            Resource::read_write::<FitState>("states"),
+        ];
         let active =
             [Resource::uniform::<ActiveParams>("params"), Resource::read::<FitState>("states"), Resource::read_write::<u32>("listed")];
-        let step = [
-            Resource::uniform::<StepParams>("params"),
+        let sums = [
+            Resource::uniform::<SumsParams>("params"),
             Resource::read::<[f32; 4]>("products"),
             Resource::read::<[f16; OCTET]>("residual"),
+            Resource::read::<FitState>("states"),
+            Resource::read::<u32>("listed"),
+            Resource::read_write::<Gram>("grams"),
+        ];
+        let step = [
+            Resource::uniform::<StepParams>("params"),
+            Resource::read::<Gram>("grams"),
             Resource::read_write::<FitState>("states"),
             Resource::read::<u32>("listed"),
         ];
+        let champion = [Resource::uniform::<ChampionParams>("params"), Resource::read_write::<FitState>("states")];
         let result = [
             Resource::uniform::<ResultParams>("params"),
             Resource::read::<FitState>("states"),
@@ -146,7 +225,9 @@ impl LafortuneFit {
             energy: Kernel::new(gpu, &wgsl::LAFORTUNE_ENERGY, wgsl::ALL, &energy)?,
             start: Kernel::new(gpu, &wgsl::LAFORTUNE_START, wgsl::ALL, &start)?,
             active: Kernel::new(gpu, &wgsl::LAFORTUNE_ACTIVE, wgsl::ALL, &active)?,
+            sums: Kernel::new(gpu, &wgsl::LAFORTUNE_SUMS, wgsl::ALL, &sums)?,
             step: Kernel::new(gpu, &wgsl::LAFORTUNE_FIT, wgsl::ALL, &step)?,
+            champion: Kernel::new(gpu, &wgsl::LAFORTUNE_CHAMPION, wgsl::ALL, &champion)?,
             result: Kernel::new(gpu, &wgsl::LAFORTUNE_RESULT, wgsl::ALL, &result)?,
         })
     }
@@ -159,119 +240,136 @@ impl LafortuneFit {
         &self, recorder: &mut Recorder<'_>, residual: &Buffer<[f16; OCTET]>, samples: &Samples, texels: usize, settings: &FitSettings,
     ) -> Result<FittedLobes, GpuError> {
         let gpu = recorder.gpu();
-        let descents = Descents {
+        let descents = descents(samples.octets(), settings);
+        let grams = descents.iter().map(|descent| (descent.fits * texels).div_ceil(FITS) * descent.slices(samples.octets()));
+        let tile = Fits {
             stage: self,
             products: upload_products(gpu, samples)?,
             residual,
             energies: gpu.fresh("energies", texels)?,
-            states: gpu.fresh("fit states", texels)?,
-            listed: gpu.fresh("running texels", 1 + texels)?,
+            states: gpu.fresh("fit states", STARTS.len() * texels)?,
+            listed: gpu.fresh("running fits", 1 + STARTS.len() * texels)?,
+            grams: gpu.fresh("Gram matrices", grams.max().unwrap_or(1))?,
             texels,
             octets: samples.octets(),
-            settings,
+            exponents: settings.exponents.map(single),
         };
-        let params = EnergyParams {
-            texels: count(texels),
-            samples: count(samples.len()),
-            octets: count(samples.octets()),
-            ..EnergyParams::default()
-        };
-        let params = gpu.uniform("lafortune_energy params", &params)?;
-        recorder.dispatch(
-            &self.energy,
-            &[bind("params", &params), bind("residual", residual), bind("energies", &descents.energies)],
-            Grid::threads(texels),
-        )?;
-        let [least, greatest] = settings.exponents.map(single);
-        for (index, [x, y, z, exponent]) in STARTS.into_iter().enumerate() {
-            let start = [x, y, z, exponent.clamp(least, greatest)];
-            descents.record(
-                recorder,
-                start,
-                index == 0,
-                settings.max_iterations.min(EXPLORING_STEPS),
-                EXPLORING_TOLERANCE * settings.tolerance,
-            )?;
+        tile.start(recorder, samples.len())?;
+        let mut fits = STARTS.len();
+        for (index, descent) in descents.into_iter().enumerate() {
+            if index > 0 {
+                tile.keep(recorder, fits, descent.fits)?;
+            }
+            fits = descent.fits;
+            tile.descend(recorder, descent)?;
         }
-        let champion = [0.0; 4];
-        descents.record(recorder, champion, false, settings.max_iterations, settings.tolerance)?;
-
-        let params = gpu.uniform("lafortune_result params", &ResultParams { texels: count(texels), ..ResultParams::default() })?;
-        let fitted = FittedLobes {
-            lobes: gpu.fresh("lobes", texels)?,
-            objectives: gpu.fresh("objectives", texels)?,
-            outcomes: gpu.fresh("outcomes", texels)?,
-        };
-        let binds = [
-            bind("params", &params),
-            bind("states", &descents.states),
-            bind("energies", &descents.energies),
-            bind("lobes", &fitted.lobes),
-            bind("objectives", &fitted.objectives),
-            bind("outcomes", &fitted.outcomes),
-        ];
-        recorder.dispatch(&self.result, &binds, Grid::threads(texels))?;
-        Ok(fitted)
+        tile.result(recorder)
     }
 }
 
-/// What all descents of a tile share.
-struct Descents<'a> {
+/// The fits of a tile.
+struct Fits<'a> {
     stage: &'a LafortuneFit,
     products: Buffer<[f32; 4]>,
     residual: &'a Buffer<[f16; OCTET]>,
     energies: Buffer<Energy>,
     states: Buffer<FitState>,
     listed: Buffer<u32>,
+    grams: Buffer<Gram>,
     texels: usize,
     octets: usize,
-    settings: &'a FitSettings,
+    exponents: [f32; 2],
 }
 
-impl Descents<'_> {
-    /// One descent from `start`, of at most `steps`.
-    fn record(&self, recorder: &mut Recorder<'_>, start: [f32; 4], first: bool, steps: u32, tolerance: f64) -> Result<(), GpuError> {
+impl Fits<'_> {
+    /// Begins a fit at each start of each texel.
+    fn start(&self, recorder: &mut Recorder<'_>, samples: usize) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
-        let params = StartParams {
-            start,
-            texels: count(self.texels),
-            first: u32::from(first),
-            min_valid: MIN_LOBE_SAMPLES,
-            ..StartParams::default()
-        };
+        let params = EnergyParams { texels: count(self.texels), samples: count(samples), octets: count(self.octets), _pad: 0 };
+        let params = gpu.uniform("lafortune_energy params", &params)?;
+        recorder.dispatch(
+            &self.stage.energy,
+            &[bind("params", &params), bind("residual", self.residual), bind("energies", &self.energies)],
+            Grid::threads(self.texels),
+        )?;
+        let [least, greatest] = self.exponents;
+        let starts = gpu.upload("starts", &STARTS.map(|[x, y, z, exponent]| [x, y, z, exponent.clamp(least, greatest)]))?;
+        let fits = STARTS.len() * self.texels;
+        let params = StartParams { texels: count(self.texels), fits: count(fits), min_valid: MIN_LOBE_SAMPLES, _pad: 0 };
         let params = gpu.uniform("lafortune_start params", &params)?;
         recorder.dispatch(
             &self.stage.start,
-            &[bind("params", &params), bind("energies", &self.energies), bind("states", &self.states)],
-            Grid::threads(self.texels),
-        )?;
+            &[bind("params", &params), bind("starts", &starts), bind("energies", &self.energies), bind("states", &self.states)],
+            Grid::threads(fits),
+        )
+    }
 
-        let params = ActiveParams { texels: count(self.texels), ..ActiveParams::default() };
+    /// One descent of each texel's first fits.
+    fn descend(&self, recorder: &mut Recorder<'_>, descent: Descent) -> Result<(), GpuError> {
+        let gpu = recorder.gpu();
+        let fits = descent.fits * self.texels;
+        let (quads, slices) = (fits.div_ceil(FITS), descent.slices(self.octets));
+        let params = ActiveParams { fits: count(fits), ..ActiveParams::default() };
         let params = gpu.uniform("lafortune_active params", &params)?;
         let active = [bind("params", &params), bind("states", &self.states), bind("listed", &self.listed)];
 
-        let params = StepParams {
-            texels: count(self.texels),
-            octets: count(self.octets),
-            tolerance: single(tolerance),
-            min_exponent: single(self.settings.exponents[0]),
-            max_exponent: single(self.settings.exponents[1]),
-            ..StepParams::default()
-        };
-        let params = gpu.uniform("lafortune_fit params", &params)?;
-        let step = [
+        let params =
+            SumsParams { texels: count(self.texels), octets: count(self.octets), stride: count(descent.stride), quads: count(quads) };
+        let params = gpu.uniform("lafortune_sums params", &params)?;
+        let sums = [
             bind("params", &params),
             bind("products", &self.products),
             bind("residual", self.residual),
             bind("states", &self.states),
             bind("listed", &self.listed),
+            bind("grams", &self.grams),
         ];
-        for index in 0..steps {
-            if index.is_multiple_of(STEPS_A_LIST) {
-                recorder.dispatch(&self.stage.active, &active, Grid::threads(1))?;
-            }
-            recorder.dispatch(&self.stage.step, &step, Grid::threads(self.texels))?;
+
+        let [min_exponent, max_exponent] = self.exponents;
+        let params = StepParams {
+            quads: count(quads),
+            slices: count(slices),
+            tolerance: single(descent.tolerance),
+            min_exponent,
+            max_exponent,
+            ..StepParams::default()
+        };
+        let params = gpu.uniform("lafortune_fit params", &params)?;
+        let step = [bind("params", &params), bind("grams", &self.grams), bind("states", &self.states), bind("listed", &self.listed)];
+        for _ in 0..descent.steps {
+            recorder.dispatch(&self.stage.active, &active, Grid::threads(1))?;
+            recorder.dispatch(&self.stage.sums, &sums, Grid::layers(quads, count(slices)))?;
+            recorder.dispatch(&self.stage.step, &step, Grid::threads(fits))?;
         }
         Ok(())
+    }
+
+    /// Goes on from the best `kept` of each texel's `fits`.
+    fn keep(&self, recorder: &mut Recorder<'_>, fits: usize, kept: usize) -> Result<(), GpuError> {
+        let gpu = recorder.gpu();
+        let params = ChampionParams { texels: count(self.texels), fits: count(fits), kept: count(kept), _pad: 0 };
+        let params = gpu.uniform("lafortune_champion params", &params)?;
+        recorder.dispatch(&self.stage.champion, &[bind("params", &params), bind("states", &self.states)], Grid::threads(self.texels))
+    }
+
+    /// Reads the one fit that is left of each texel.
+    fn result(&self, recorder: &mut Recorder<'_>) -> Result<FittedLobes, GpuError> {
+        let gpu = recorder.gpu();
+        let params = gpu.uniform("lafortune_result params", &ResultParams { texels: count(self.texels), ..ResultParams::default() })?;
+        let fitted = FittedLobes {
+            lobes: gpu.fresh("lobes", self.texels)?,
+            objectives: gpu.fresh("objectives", self.texels)?,
+            outcomes: gpu.fresh("outcomes", self.texels)?,
+        };
+        let binds = [
+            bind("params", &params),
+            bind("states", &self.states),
+            bind("energies", &self.energies),
+            bind("lobes", &fitted.lobes),
+            bind("objectives", &fitted.objectives),
+            bind("outcomes", &fitted.outcomes),
+        ];
+        recorder.dispatch(&self.stage.result, &binds, Grid::threads(self.texels))?;
+        Ok(fitted)
     }
 }
