@@ -1,5 +1,13 @@
-//! The reflectance of 2048 texels of a measured set on the adapter, beside `scipy.optimize.least_squares(method="lm")` on 64 of
-//! them: `cargo bench --bench lafortune_fit -- SOURCE…`. Needs python3 with numpy and scipy.
+//! The reflectance of 2048 texels of a measured set on the adapter, beside the same fits by what people would use instead:
+//! `cargo bench --bench lafortune_fit -- SOURCE…`. Needs python3 with numpy and scipy.
+//!
+//! The adapter's time runs from radiance to lobe and ρ_s (reflectance, percentile, residual, fit, scale), the peers' from residual
+//! to lobe. Objectives are those of the peers' texels, in double precision, by one function for all.
+
+mod peers {
+    pub mod crate_lm;
+    pub mod native;
+}
 
 use std::{env, error::Error, fs, path::Path, process::Command, time::Instant};
 
@@ -8,7 +16,7 @@ use overpaint::{
     data::{OCTET, Samples},
     gpu::Gpu,
     io,
-    model::FitSettings,
+    model::{FitSettings, lafortune},
     stage,
 };
 
@@ -19,12 +27,55 @@ fn main() -> Result<(), Box<dyn Error>> {
     let sources: Vec<String> = env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
     if sources.is_empty() {
         println!("lafortune_fit: no sources given, nothing measured");
+        return Ok(());
     }
     let gpu = Gpu::open(env::var("OVERPAINT_ADAPTER").ok().as_deref())?;
+    let system = sysinfo::System::new_with_specifics(sysinfo::RefreshKind::nothing().with_cpu(sysinfo::CpuRefreshKind::nothing()));
+    let cpu = system.cpus().first().map_or("unknown", |cpu| cpu.brand());
+    println!("adapter: {}; CPU: {cpu}, {} cores", gpu.adapter().name, rayon::current_num_threads());
     for source in &sources {
         compare(&gpu, Path::new(source))?;
     }
     Ok(())
+}
+
+/// The residuals of some texels, `[texel][sample]`, and what they are fitted with.
+struct Problem {
+    products: Vec<[f64; 3]>,
+    residuals: Vec<f64>,
+    settings: FitSettings,
+}
+
+impl Problem {
+    /// Mean squared residual of each texel.
+    fn objectives(&self, lobes: &[[f64; 4]]) -> Vec<f64> {
+        let objective = |(residual, lobe): (&[f64], &[f64; 4])| {
+            let squares = self.products.iter().zip(residual).map(|(product, s)| (lafortune(*lobe, *product) - s).powi(2));
+            squares.sum::<f64>() / residual.len() as f64
+        };
+        self.residuals.chunks(self.products.len()).zip(lobes).map(objective).collect()
+    }
+
+    /// A row of the table: objectives of `lobes` over `ours`.
+    fn row(&self, what: &str, fits_a_second: f64, lobes: &[[f64; 4]], ours: &[f64]) {
+        let theirs = self.objectives(lobes);
+        let mut ratios: Vec<f64> = theirs.iter().zip(ours).map(|(theirs, ours)| theirs / ours.max(1e-30)).collect();
+        ratios.sort_by(f64::total_cmp);
+        let not_better = ratios.iter().filter(|ratio| 1.0 <= 1.001 * **ratio).count() as f64 / ratios.len() as f64;
+        println!(
+            "  {what:<44}{fits_a_second:>9.0}{:>11.4}{:>11.4}{:>14.1} %",
+            theirs.iter().sum::<f64>() / ours.iter().sum::<f64>(),
+            ratios[ratios.len() / 2],
+            100.0 * not_better,
+        );
+    }
+}
+
+/// What `work` gives, and the fits a second.
+fn timed(fits: usize, work: impl FnOnce() -> Result<Vec<[f64; 4]>, Box<dyn Error>>) -> Result<(f64, Vec<[f64; 4]>), Box<dyn Error>> {
+    let start = Instant::now();
+    let lobes = work()?;
+    Ok((fits as f64 / start.elapsed().as_secs_f64(), lobes))
 }
 
 fn compare(gpu: &Gpu, path: &Path) -> Result<(), Box<dyn Error>> {
@@ -56,31 +107,57 @@ fn compare(gpu: &Gpu, path: &Path) -> Result<(), Box<dyn Error>> {
     specular_scale.record(&mut recorder, &reflectance, &samples, &diffuse, &fitted.lobes, &settings)?;
     gpu.submit(recorder).wait(gpu)?;
     let seconds = start.elapsed().as_secs_f64();
-    println!(
-        "{}: {} samples, {:.0} texels/s from radiance to lobe and rho_s on {}",
-        btf.name(),
-        samples.len(),
-        texels as f64 / seconds,
-        gpu.adapter().name
-    );
 
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(btf.name());
-    fs::create_dir_all(&folder)?;
     let (residual, lobes) = (residual.read(gpu)?, fitted.lobes.read(gpu)?);
     // Spread over the block by a step that shares no factor with its rows.
     let chosen: Vec<usize> = (0..CHOSEN).map(|index| index * 1_237 % texels).collect();
-    let residual: Vec<f64> = chosen
-        .iter()
-        .flat_map(|&texel| (0..samples.len()).map(move |sample| (texel, sample)))
-        .map(|(texel, sample)| f64::from(f16::to_f32(residual[sample / OCTET * texels + texel][sample % OCTET])))
-        .collect();
-    let lobes: Vec<f64> = chosen.iter().flat_map(|&texel| lobes[texel]).map(f64::from).collect();
-    let products: Vec<f64> = samples.products().flatten().collect();
-    fs::write(folder.join("residual.f64"), bytemuck::cast_slice(&residual))?;
-    fs::write(folder.join("lobes.f64"), bytemuck::cast_slice(&lobes))?;
-    fs::write(folder.join("products.f64"), bytemuck::cast_slice(&products))?;
+    let problem = Problem {
+        products: samples.products().collect(),
+        residuals: chosen
+            .iter()
+            .flat_map(|&texel| (0..samples.len()).map(move |sample| (texel, sample)))
+            .map(|(texel, sample)| f64::from(f16::to_f32(residual[sample / OCTET * texels + texel][sample % OCTET])))
+            .collect(),
+        settings,
+    };
+    let lobes: Vec<[f64; 4]> = chosen.iter().map(|&texel| lobes[texel].map(f64::from)).collect();
+    let ours = problem.objectives(&lobes);
+
+    println!("{}: {} samples, {CHOSEN} of {texels} texels compared", btf.name(), samples.len());
+    println!("  {:<44}{:>9}{:>11}{:>11}{:>16}", "", "fits/s", "mean E", "median E", "E >= ours/1.001");
+    problem.row("overpaint, radiance to rho_s", texels as f64 / seconds, &lobes, &ours);
+    let [least, greatest] = problem.settings.exponents;
+    let (rate, lobes) = scipy(&problem, &Path::new(env!("CARGO_TARGET_TMPDIR")).join(btf.name()))?;
+    problem.row("scipy, MINPACK f64, one thread, one start", rate, &lobes, &ours);
+    let (products, residuals) = (&problem.products, &problem.residuals);
+    let (rate, lobes) = timed(CHOSEN, || Ok(peers::crate_lm::fit(products, residuals, [least, greatest])))?;
+    problem.row("levenberg-marquardt f64, one thread, one start", rate, &lobes, &ours);
+    let (rate, lobes) = timed(CHOSEN, || Ok(peers::crate_lm::fit_on_all_cores(products, residuals, [least, greatest])))?;
+    problem.row("levenberg-marquardt f64, all cores, one start", rate, &lobes, &ours);
+    let exponents = [least as f32, greatest as f32];
+    let native = |starts: &[[f32; 4]]| {
+        let FitSettings { max_iterations, tolerance, .. } = problem.settings;
+        timed(CHOSEN, || Ok(peers::native::fit(products, residuals, starts, exponents, max_iterations, tolerance)))
+    };
+    let (rate, lobes) = native(&stage::STARTS)?;
+    problem.row("native f32, all cores, our starts", rate, &lobes, &ours);
+    let (rate, lobes) = native(&stage::STARTS[..1])?;
+    problem.row("native f32, all cores, one start", rate, &lobes, &ours);
+    Ok(())
+}
+
+/// Fits a second and lobes of `scipy.optimize.least_squares(method="lm")`, by way of files in `folder`.
+fn scipy(problem: &Problem, folder: &Path) -> Result<(f64, Vec<[f64; 4]>), Box<dyn Error>> {
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join("residual.f64"), bytemuck::cast_slice(&problem.residuals))?;
+    fs::write(folder.join("products.f64"), bytemuck::cast_slice(problem.products.as_flattened()))?;
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/lafortune_fit.py");
-    let [least, greatest] = settings.exponents;
-    let status = Command::new("python3").arg(script).arg(&folder).args([least.to_string(), greatest.to_string()]).status()?;
-    if status.success() { Ok(()) } else { Err("the peer failed; it needs python3 with numpy and scipy".into()) }
+    let exponents = problem.settings.exponents.map(|exponent| exponent.to_string());
+    let output = Command::new("python3").arg(script).arg(folder).args(exponents).output()?;
+    if !output.status.success() {
+        return Err(format!("the peer failed; it needs python3 with numpy and scipy: {}", String::from_utf8_lossy(&output.stderr)).into());
+    }
+    let seconds: f64 = String::from_utf8(output.stdout)?.trim().parse()?;
+    let lobes: Vec<[f64; 4]> = bytemuck::pod_collect_to_vec(&fs::read(folder.join("lobes.f64"))?);
+    Ok((lobes.len() as f64 / seconds, lobes))
 }

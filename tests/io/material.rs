@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use overpaint::{
-    data::{Direction, Encoding, Fit, FitStatus, Lobe, MAX_LOBES, Map, Material, Provenance, Svbrdf, Transfer},
+    data::{Candidate, Choice, Direction, Encoding, Fit, FitStatus, Lobe, MAX_LOBES, Map, Material, Provenance, Svbrdf, Transfer},
     io::{self, Kind, material},
-    model::{FitSettings, Frame},
+    model::{FitSettings, Frame, SurfaceMode},
 };
 use tempfile::TempDir;
 
@@ -51,6 +51,14 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
             iterations: Map::from_fn(width, height, |x, y| (x * y) as u32),
             status: Map::from_fn(width, height, |x, y| ((x + y) % FitStatus::ALL.len()) as u32),
             masked: Map::from_fn(width, height, |x, y| (x + 2 * y) as u32),
+        },
+        choice: Choice {
+            candidates: vec![
+                Candidate { height_scale: 1.0 / 3.0, height_level: -0.25, relative_rms: Some(0.1), ..Candidate::new(SurfaceMode::Local, Frame::Seen) },
+                Candidate::new(SurfaceMode::Rough, Frame::Plane),
+            ],
+            texels: 144,
+            representative: Some([3, 4]),
         },
         provenance: Provenance {
             source: "a \"sample\", θ".to_owned(),

@@ -12,7 +12,7 @@ crate::suite! { gpu: agrees_with_its_twin; }
 
 fn agrees_with_its_twin(gpu: &Gpu) {
     let mut random = Random::new(21);
-    for (texels, samples, lobes) in [(1, 1, 1), (63, 9, 1), (64, 16, 2), (65, 131, 3)] {
+    for (texels, samples, lobes) in [(1, 1, 1), (63, 9, 1), (64, 16, 2), (65_usize, 131_usize, 3)] {
         let octets = samples.div_ceil(OCTET);
         let directions = tile::directions(&mut random, samples);
         let rows: Vec<u32> = (0..samples).map(|sample| (sample % 3) as u32).collect();

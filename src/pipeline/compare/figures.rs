@@ -133,6 +133,7 @@ pub struct Comparison {
     #[serde(skip)]
     pub texel: Vec<Option<[f32; 3]>>,
     /// The frames of that texel in each pair.
+    #[serde(skip)]
     pub(super) framed: Vec<Framed>,
 }
 

@@ -86,7 +86,8 @@ pub fn measure(
     let picture = gpu.fresh("reconstructed picture", texels)?;
     let batch = batch(gpu, texels, memory);
     let mut texel_sums = gpu.zeros::<[f32; 2]>("errors of texels", texels)?;
-    let mut found = Measured { pairs: Vec::with_capacity(samples), texels: Map::from_fn(0, 0, |_, _| [0.0; 2]), texel: Vec::new(), framed: Vec::new() };
+    let mut found =
+        Measured { pairs: Vec::with_capacity(samples), texels: Map::from_fn(0, 0, |_, _| [0.0; 2]), texel: Vec::new(), framed: Vec::new() };
     let mut of_texels = vec![[0.0_f64; 2]; texels];
     progress.expect(2 * samples);
 

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// The frame that a texel's reflectance is in under one pair, and its light there.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Framed {
     /// Unit normal.
     normal: DVec3,
@@ -65,9 +65,8 @@ pub struct Reflected {
 pub fn reflected(svbrdf: &Svbrdf, at: (usize, usize), normal: DVec3, view: Direction, light: Direction) -> Reflected {
     let product = product_in_frame(normal, view.vector(), light.vector());
     let lobes: Vec<f64> = svbrdf.lobes.iter().map(|lobe| lafortune(lobe.parameters[at].map(f64::from), product)).collect();
-    let specular = |channel: usize| {
-        svbrdf.lobes.iter().zip(&lobes).map(|(lobe, value)| f64::from(lobe.specular[at][channel]) * value).sum()
-    };
+    let specular =
+        |channel: usize| svbrdf.lobes.iter().zip(&lobes).map(|(lobe, value)| f64::from(lobe.specular[at][channel]) * value).sum();
     Reflected {
         diffuse: svbrdf.diffuse[at].map(f64::from),
         lobe: lobes.first().copied().unwrap_or_default(),
@@ -110,7 +109,8 @@ pub fn steps(btf: &Btf, svbrdf: &Svbrdf, at: [usize; 2], measured: &[Option<[f32
     let sum = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
     // A place without light has no reflectance.
     let over = |radiance: f64, shading: f64| if shading > 0.0 { radiance / shading } else { 0.0 };
-    let above = |radiance: [f64; 3], found: Reflected, shading: f64| [0, 1, 2].map(|c| (over(radiance[c], shading) - found.diffuse[c]).max(0.0));
+    let above =
+        |radiance: [f64; 3], found: Reflected, shading: f64| [0, 1, 2].map(|c| (over(radiance[c], shading) - found.diffuse[c]).max(0.0));
     Steps {
         radiance: [
             step(&|radiance, _, _| radiance),
