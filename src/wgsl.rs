@@ -21,6 +21,8 @@ sources! {
     BRDF_VALUES = "kernels" "brdf_values";
     /// Real part of a corner of a complex field.
     CROP_REAL = "kernels" "crop_real";
+    /// Samples in shadow masked.
+    DARK_SAMPLES = "kernels" "dark_samples";
     /// One pass of a Fourier transform.
     FFT = "kernels" "fft";
     /// Kubelka-Munk films.
@@ -49,6 +51,10 @@ sources! {
     LAFORTUNE_START = "kernels" "lafortune_start";
     /// State of the Lafortune fit between passes.
     LAFORTUNE_STATE = "kernels/common" "lafortune_state";
+    /// Reflectance once the lobes are known.
+    LINEAR_REFIT = "kernels" "linear_refit";
+    /// Samples whose reflectance stands in the frames of normals.
+    LOCAL_SAMPLES = "kernels/common" "local_samples";
     /// Reflection at a paint's surface.
     MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.
@@ -69,6 +75,8 @@ sources! {
     PHOTOMETRIC_STEREO = "kernels" "photometric_stereo";
     /// The material as a plane.
     PLANE = "shaders" "plane";
+    /// How far the model's radiance is from the measured one.
+    RADIANCE_ERROR = "kernels" "radiance_error";
     /// What the source's camera would have recorded.
     RECONSTRUCT = "kernels" "reconstruct";
     /// Rays against a height field.

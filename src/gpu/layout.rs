@@ -35,7 +35,7 @@ impl std::fmt::Display for Field {
 
 /// A plain value that can live in a GPU buffer and describes its own layout.
 ///
-/// Implemented for the scalars, for vectors of two and four of them, and by [`gpu_struct!`](crate::gpu_struct) for
+/// Implemented for the scalars, for vectors of two to four of them, and by [`gpu_struct!`](crate::gpu_struct) for
 /// parameter structs.
 pub trait GpuValue: Pod {
     /// The value's fields in order of their offsets.
@@ -52,7 +52,7 @@ macro_rules! scalar {
     )*};
 }
 scalar! {
-    f32, Scalar::F32, 1; [f32; 2], Scalar::F32, 2; [f32; 4], Scalar::F32, 4;
+    f32, Scalar::F32, 1; [f32; 2], Scalar::F32, 2; [f32; 3], Scalar::F32, 3; [f32; 4], Scalar::F32, 4;
     u32, Scalar::U32, 1; [u32; 2], Scalar::U32, 2; [u32; 4], Scalar::U32, 4;
     i32, Scalar::I32, 1;
 }

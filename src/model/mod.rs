@@ -22,7 +22,7 @@ pub use coat::Coat;
 pub use fourier::Fourier;
 pub use frame::{Frame, in_frame, product_in_frame};
 pub use kubelka_munk::Film;
-pub use lafortune::{MIN_LOBE_SAMPLES, lafortune};
+pub use lafortune::{MIN_LOBE_ENERGY, MIN_LOBE_SAMPLES, lafortune};
 pub use paint::{Layer, Paint, PaintError};
 pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;

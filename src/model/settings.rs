@@ -42,6 +42,9 @@ pub struct FitSettings {
     pub min_cos_light: f64,
     /// ρ_d is this quantile of the reflectance (thesis: the 10th percentile).
     pub diffuse_quantile: f64,
+    /// Samples whose mean reflectance is below this times that of the texel's medians are taken to lie in shadow and left out of the
+    /// quantile (thesis: measurements that are too dark are dropped on rough surfaces).
+    pub dark_fraction: f64,
     /// Steps of Levenberg-Marquardt at most, in each descent.
     pub max_iterations: u32,
     /// A descent has converged when a step lowers the objective by less than this, relatively.
@@ -69,6 +72,7 @@ impl Default for FitSettings {
             // 80°: keeps all of the usual grids (θ ≤ 75°) and leaves out what cannot be divided by.
             min_cos_light: 0.17,
             diffuse_quantile: 0.1,
+            dark_fraction: 0.2,
             max_iterations: 40,
             // Single precision sums thousands of squares to about 1e-6.
             tolerance: 1e-6,
@@ -102,6 +106,7 @@ impl FitSettings {
             ("max_slope", format!("{}", self.max_slope), (1e-3..=1e3).contains(&self.max_slope), "from 0.001 to 1000"),
             ("min_cos_light", format!("{}", self.min_cos_light), (1e-3..=1.0).contains(&self.min_cos_light), "from 0.001 to 1"),
             ("diffuse_quantile", format!("{}", self.diffuse_quantile), (0.0..=1.0).contains(&self.diffuse_quantile), "from 0 to 1"),
+            ("dark_fraction", format!("{}", self.dark_fraction), (0.0..=1.0).contains(&self.dark_fraction), "from 0 to 1"),
             ("max_iterations", format!("{}", self.max_iterations), (1..=10_000).contains(&self.max_iterations), "from 1 to 10000"),
             ("tolerance", format!("{}", self.tolerance), (0.0..1.0).contains(&self.tolerance), "at least 0 and below 1"),
             // C = k A^(1/n) leaves single precision below, and rounding of a base near 1 grows n times above.

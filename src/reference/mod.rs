@@ -1,17 +1,21 @@
 //! CPU twins of the stages in f64, from the papers, by another route than the kernels. Only tests and benches use them.
 
 mod brdf_values;
+mod dark_samples;
 mod fft;
 mod frankot_chellappa;
 mod gather;
 mod kubelka_munk;
 mod lafortune_fit;
+mod linear_refit;
+mod local_samples;
 mod normals;
 mod paint_relief;
 mod pattern;
 mod percentile;
 mod photometric_stereo;
 mod plane;
+mod radiance_error;
 mod reconstruct;
 mod relief;
 mod shade;
@@ -20,17 +24,21 @@ mod specular_scale;
 mod synth;
 
 pub use brdf_values::brdf_values;
+pub use dark_samples::dark_samples;
 pub use fft::fft;
 pub use frankot_chellappa::frankot_chellappa;
 pub use gather::gather;
 pub use kubelka_munk::{film, kubelka_munk};
 pub use lafortune_fit::{LafortuneFit, lafortune_fit, lafortune_gradient, lafortune_objective};
+pub use linear_refit::linear_refit;
+pub use local_samples::LocalSample;
 pub use normals::normals;
 pub use paint_relief::paint_relief;
 pub use pattern::pattern;
 pub use percentile::percentile;
 pub use photometric_stereo::photometric_stereo;
 pub use plane::plane;
+pub use radiance_error::radiance_error;
 pub use reconstruct::reconstruct;
 pub use shade::Surface;
 pub use specular_residual::specular_residual;

@@ -1,6 +1,7 @@
 //! Host side of the compute stages, one file each.
 
 mod brdf_values;
+mod dark_samples;
 mod error;
 mod fft;
 mod frankot_chellappa;
@@ -8,11 +9,14 @@ mod gather;
 mod height_field;
 mod kubelka_munk;
 mod lafortune_fit;
+mod linear_refit;
+mod local_samples;
 mod normals;
 mod paint_relief;
 mod pattern;
 mod percentile;
 mod photometric_stereo;
+mod radiance_error;
 mod reconstruct;
 mod scalar;
 mod specular_residual;
@@ -22,6 +26,7 @@ mod synth;
 mod tile;
 
 pub use brdf_values::BrdfValues;
+pub use dark_samples::DarkSamples;
 pub use error::StageError;
 pub use fft::Fft;
 pub use frankot_chellappa::FrankotChellappa;
@@ -29,16 +34,18 @@ pub use gather::{Gather, Gathered};
 pub use height_field::{HeightField, Scene};
 pub use kubelka_munk::KubelkaMunk;
 pub use lafortune_fit::{FittedLobes, LafortuneFit, STARTS};
+pub use linear_refit::{LinearRefit, Refitted};
 pub use normals::Normals;
 pub use paint_relief::PaintRelief;
 pub use pattern::Pattern;
 pub use percentile::Percentile;
 pub use photometric_stereo::PhotometricStereo;
+pub use radiance_error::RadianceError;
 pub use reconstruct::Reconstruct;
 pub use specular_residual::SpecularResidual;
 pub use specular_scale::SpecularScale;
 pub use surface::Surface;
 pub use synth::{Rendered, Synth, SynthSurface};
-pub use tile::Tile;
+pub use tile::{SampleDirections, Tile, upload_directions};
 
 pub(crate) use scalar::{count, single};

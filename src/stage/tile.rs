@@ -4,8 +4,9 @@ use half::f16;
 
 use super::scalar::single;
 use crate::{
-    data::{OCTET, Samples},
+    data::{Direction, OCTET, Samples},
     gpu::{Buffer, Gpu, GpuError},
+    gpu_struct,
 };
 
 /// The samples of a block of texels: halves in octets, `[channel][octet][texel]`.
@@ -28,6 +29,38 @@ impl Tile {
     pub fn octets(&self) -> usize {
         self.samples.div_ceil(OCTET)
     }
+}
+
+gpu_struct! {
+    /// Directions of one sample of a tile whose reflectance stands in the frames of normals
+    /// (`kernels/common/shading_frame.wgsl`).
+    pub struct SampleDirections {
+        view: [f32; 3],
+        row: u32,
+        light: [f32; 3],
+        _pad: u32,
+    }
+}
+
+/// The directions of a tile's samples on the GPU, `[sample filled up to octets]`, zero past the last; `rows` has each sample's row of
+/// normals.
+///
+/// # Errors
+/// [`GpuError`] if they do not fit the adapter.
+///
+/// # Panics
+/// If there are not as many rows as samples: the caller's bug.
+pub fn upload_directions(gpu: &Gpu, samples: &Samples, rows: &[u32]) -> Result<Buffer<SampleDirections>, GpuError> {
+    assert_eq!(rows.len(), samples.len(), "rows of normals and samples");
+    let sample = |(&(view, light), &row): (&(Direction, Direction), &u32)| SampleDirections {
+        view: view.vector().as_vec3().to_array(),
+        row,
+        light: light.vector().as_vec3().to_array(),
+        _pad: 0,
+    };
+    let mut directions: Vec<_> = samples.directions().iter().zip(rows).map(sample).collect();
+    directions.resize(samples.octets() * OCTET, SampleDirections::default());
+    gpu.upload("directions of samples", &directions)
 }
 
 /// The directions of a tile's samples on the GPU: ω_i ω_o by components, `[sample filled up to octets]`, zero past the last.

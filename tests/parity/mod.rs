@@ -2,11 +2,13 @@
 
 crate::suites! {
     brdf_values,
+    dark_samples,
     fft,
     frankot_chellappa,
     gather,
     kubelka_munk,
     lafortune_fit,
+    linear_refit,
     microfacet,
     normals,
     paint_relief,
@@ -14,6 +16,7 @@ crate::suites! {
     percentile,
     photometric_stereo,
     plane,
+    radiance_error,
     reconstruct,
     specular_residual,
     specular_scale,

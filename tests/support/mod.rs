@@ -2,6 +2,7 @@
 
 pub mod files;
 pub mod known;
+pub mod local;
 pub mod npy;
 pub mod probe;
 pub mod random;
