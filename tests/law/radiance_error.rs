@@ -5,7 +5,8 @@ use crate::{
     support::{Worst, hold, local::Local, random::Random, tile},
 };
 
-crate::suite! { gpu: the_model_itself_has_no_error, black_has_the_error_of_the_radiance, masked_samples_do_not_count; }
+crate::suite! { gpu: the_model_itself_has_no_error, black_has_the_error_of_the_radiance, masked_samples_do_not_count,
+    lobes_without_a_share_change_nothing; }
 
 const TEXELS: usize = 70;
 const SAMPLES: usize = 203;
@@ -63,4 +64,15 @@ fn masked_samples_do_not_count(gpu: &Gpu) {
     let whole = radiance_error(gpu, &local, &model, &planes(1.0));
     // Rounding of the model to halves.
     hold("radiance_error: masked", plain.iter().zip(whole).map(|(a, b)| (a[0] - b[0]).abs() / b[0]).worst(), 1e-4);
+}
+
+/// Even if they are out of single precision's range.
+fn lobes_without_a_share_change_nothing(gpu: &Gpu) {
+    let mut local = Local::new(&mut Random::new(107), TEXELS, SAMPLES, 4, 3);
+    let radiance = local.tile(gpu, known, |_, _, _, value| value);
+    let mut planes = planes(1.0);
+    planes[TEXELS..].fill([0.0; 4]);
+    let plain = radiance_error(gpu, &local, &radiance, &planes);
+    local.lobes.fill([-1e3, -1e3, 1e3, 1000.0]);
+    assert_eq!(radiance_error(gpu, &local, &radiance, &planes), plain);
 }
