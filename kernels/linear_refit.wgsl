@@ -30,9 +30,9 @@ struct Params {
 const SIZE: u32 = 64u;
 // Octets summed apart before they join the total, for less rounding.
 const BLOCK: u32 = 32u;
-// Least squared sine between a column and the span of those before it in a subset: sums in single precision know it to 1e-6. Since
-// columns and radiance are not negative, no coefficient times its column is longer than the radiance, and so leaving out a subset
-// below costs at most 1e-5 of the radiance's squares.
+// The squared sine between a column and the span of those before it in a subset is held to at least this: sums in single precision
+// know it to 1e-6. That weighs the coefficient's own square with 1e-5 at most; and since columns and radiance are not negative, no
+// coefficient times its column is longer than the radiance, so that it costs at most 1e-5 of the radiance's squares.
 const MIN_PIVOT: f32 = 1e-5;
 // Derivatives below this times the largest at zero are rounding. Of several subsets that hold the minimum, the first is taken.
 const TOLERANCE: f32 = 1e-6;
@@ -103,11 +103,6 @@ struct System {
     right: array<vec3<f32>, 4>,
 }
 
-struct Solution {
-    x: array<vec3<f32>, 4>,
-    least_pivot: f32,
-}
-
 // 1 over the length of each column; 0 for one without the energy for that.
 fn scale_of(energy: vec4<f32>) -> vec4<f32> {
     let usable = energy > vec4(0.0, vec3(params.min_energy * energy.x));
@@ -133,7 +128,7 @@ fn scaled(sums: Sums, scale: vec4<f32>) -> System {
 }
 
 // The least-squares solution over the columns that are `inside` (1, otherwise 0), by L D L^T; the others' unknowns are 0.
-fn solve(system: System, inside: vec4<f32>) -> Solution {
+fn solve(system: System, inside: vec4<f32>) -> array<vec3<f32>, 4> {
     let diagonal = system.diagonal * inside + (1.0 - inside);
     let mixed = system.mixed * inside.xxxy * inside.yzwz;
     let mixed_last = system.mixed_last * inside.yz * inside.w;
@@ -141,15 +136,12 @@ fn solve(system: System, inside: vec4<f32>) -> Solution {
     let l10 = mixed.x;
     let l20 = mixed.y;
     let l30 = mixed.z;
-    let pivot1 = diagonal.y - l10 * l10;
-    let d1 = max(pivot1, MIN_PIVOT);
+    let d1 = max(diagonal.y - l10 * l10, MIN_PIVOT);
     let l21 = (mixed.w - l20 * l10) / d1;
     let l31 = (mixed_last.x - l30 * l10) / d1;
-    let pivot2 = diagonal.z - l20 * l20 - l21 * l21 * d1;
-    let d2 = max(pivot2, MIN_PIVOT);
+    let d2 = max(diagonal.z - l20 * l20 - l21 * l21 * d1, MIN_PIVOT);
     let l32 = (mixed_last.y - l30 * l20 - l31 * l21 * d1) / d2;
-    let pivot3 = diagonal.w - l30 * l30 - l31 * l31 * d1 - l32 * l32 * d2;
-    let d3 = max(pivot3, MIN_PIVOT);
+    let d3 = max(diagonal.w - l30 * l30 - l31 * l31 * d1 - l32 * l32 * d2, MIN_PIVOT);
     let y0 = b[0] * inside.x;
     let y1 = b[1] * inside.y - l10 * y0;
     let y2 = b[2] * inside.z - l20 * y0 - l21 * y1;
@@ -158,7 +150,7 @@ fn solve(system: System, inside: vec4<f32>) -> Solution {
     let x2 = y2 / d2 - l32 * x3;
     let x1 = y1 / d1 - l21 * x2 - l31 * x3;
     let x0 = y0 - l10 * x1 - l20 * x2 - l30 * x3;
-    return Solution(array(x0, x1, x2, x3), min(min(diagonal.x, pivot1), min(pivot2, pivot3)));
+    return array(x0, x1, x2, x3);
 }
 
 // The steepest slope, per channel, by which a column that is not `inside` would lower half the squared error.
@@ -189,11 +181,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let rounding = TOLERANCE * least;
     for (var subset = 1u; subset < (2u << params.lobes); subset++) {
         let inside = select(vec4(0.0), vec4(1.0), (vec4(subset) & vec4(1u, 2u, 4u, 8u)) != vec4(0u));
-        let solution = solve(system, inside);
-        if solution.least_pivot < MIN_PIVOT {
-            continue;
-        }
-        var x = solution.x;
+        var x = solve(system, inside);
         let violation = max(violation_of(system, x, inside), rounding);
         let better = (min(min(x[0], x[1]), min(x[2], x[3])) >= vec3(0.0)) & (violation < least);
         for (var column = 0u; column < 4u; column++) {

@@ -2,12 +2,14 @@
 
 crate::suites! {
     brdf_values,
+    dark_samples,
     fft,
     flatness,
     frankot_chellappa,
     gather,
     kubelka_munk,
     lafortune_fit,
+    linear_refit,
     lobe_residual,
     microfacet,
     normals,
@@ -17,6 +19,7 @@ crate::suites! {
     photometric_stereo,
     picture_error,
     plane,
+    radiance_error,
     reconstruct,
     seen_surface,
     specular_residual,

@@ -134,7 +134,7 @@ pub struct Comparison {
     pub texel: Vec<Option<[f32; 3]>>,
     /// The frames of that texel in each pair.
     #[serde(skip)]
-    pub(super) framed: Vec<Framed>,
+    pub framed: Vec<Framed>,
 }
 
 /// All figures that follow from the sums of pairs and texels.
