@@ -39,6 +39,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Fits a second and the lobes (C_x, C_y, C_z, n).
+type Timed = (f64, Vec<[f64; 4]>);
+
 /// The residuals of some texels, `[texel][sample]`, and what they are fitted with.
 struct Problem {
     products: Vec<[f64; 3]>,
@@ -71,8 +74,8 @@ impl Problem {
     }
 }
 
-/// What `work` gives, and the fits a second.
-fn timed(fits: usize, work: impl FnOnce() -> Result<Vec<[f64; 4]>, Box<dyn Error>>) -> Result<(f64, Vec<[f64; 4]>), Box<dyn Error>> {
+/// What `work` gives, with the fits a second.
+fn timed(fits: usize, work: impl FnOnce() -> Result<Vec<[f64; 4]>, Box<dyn Error>>) -> Result<Timed, Box<dyn Error>> {
     let start = Instant::now();
     let lobes = work()?;
     Ok((fits as f64 / start.elapsed().as_secs_f64(), lobes))
@@ -139,6 +142,7 @@ fn compare(gpu: &Gpu, path: &Path) -> Result<(), Box<dyn Error>> {
     problem.row("levenberg-marquardt f64, one thread, one start", rate, &lobes, &ours);
     let (rate, lobes) = timed(CHOSEN, || Ok(peers::crate_lm::fit_on_all_cores(products, residuals, [least, greatest])))?;
     problem.row("levenberg-marquardt f64, all cores, one start", rate, &lobes, &ours);
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is what this peer works in")]
     let exponents = [least as f32, greatest as f32];
     let native = |starts: &[[f32; 4]]| {
         let FitSettings { max_iterations, tolerance, .. } = problem.settings;
@@ -152,7 +156,7 @@ fn compare(gpu: &Gpu, path: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 /// Fits a second and lobes of `scipy.optimize.least_squares(method="lm")`, by way of files in `folder`.
-fn scipy(problem: &Problem, folder: &Path) -> Result<(f64, Vec<[f64; 4]>), Box<dyn Error>> {
+fn scipy(problem: &Problem, folder: &Path) -> Result<Timed, Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     fs::write(folder.join("residual.f64"), bytemuck::cast_slice(&problem.residuals))?;
     fs::write(folder.join("products.f64"), bytemuck::cast_slice(problem.products.as_flattened()))?;
