@@ -37,6 +37,8 @@ struct Params {
 const SIZE: u32 = 64u;
 const MAX_DAMPING: f32 = 1e6;
 const MIN_DAMPING: f32 = 1e-7;
+// A decrease must be more than the rounding of the correction that it rests on.
+const ROUNDING: f32 = 2.4e-7;
 
 // The sums of one fit.
 struct Sums {
@@ -201,12 +203,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         states[fit] = state;
         return;
     }
-    // An amplitude far from the last leaves nothing but rounding of the difference.
-    let objective = max(sums.rr - correction * sums.mr, 1e-6 * sums.rr);
+    let objective = max(sums.rr - correction * sums.mr, 0.0);
+    let decrease = state.objective - objective;
     if first {
         accept(&state, sums, amplitude, objective);
-    } else if is_lobe && objective < state.objective {
-        let decrease = state.objective - objective;
+    } else if is_lobe && decrease > ROUNDING * correction * sums.mr {
         let gain = decrease / max(state.foreseen, 1e-30);
         let bend = 2.0 * gain - 1.0;
         state.damping = max(state.damping * max(1.0 / 3.0, 1.0 - bend * bend * bend), MIN_DAMPING);

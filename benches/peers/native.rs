@@ -4,6 +4,8 @@
 //! Same parameters as the stage, A·(k·p)^n with A eliminated, same starts, all samples in every step. `exp2` and `log2` are
 //! polynomials, since the library's are calls that no compiler vectorises.
 
+#![expect(clippy::cast_possible_truncation, reason = "single precision is what this peer works in")]
+
 use rayon::prelude::*;
 
 /// Samples that are worked on side by side.

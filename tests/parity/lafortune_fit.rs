@@ -26,7 +26,7 @@ pub fn noisy_lobes(random: &mut Random, samples: &Samples, texels: usize, noise:
 }
 
 fn objective_is_as_low_as_its_twins(gpu: &Gpu) {
-    for (samples, texels) in [(40, 1), (63, 63), (257, 64), (600, 65), (2601, 5), (257, 257)] {
+    for (samples, texels) in [(40, 1), (63, 63), (257, 64), (512, 5), (513, 5), (600, 65), (2601, 5), (257, 257)] {
         compare(gpu, samples, texels, &FitSettings::default(), |_, _| false);
     }
 }
