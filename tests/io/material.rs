@@ -246,7 +246,7 @@ fn walk(folder: &Path) -> Vec<PathBuf> {
 fn wrong_metadata_are_named() {
     let (_folder, path) = saved(&sample([4, 4], 1));
     let edits: [(&str, &str, &str, &[&str]); 9] = [
-        ("zarr.json", r#""format_version": 1"#, r#""format_version": 2"#, &["version 2", "version 1"]),
+        ("zarr.json", r#""format_version": 2"#, r#""format_version": 2"#, &["version 2", "version 1"]),
         ("zarr.json", r#""width": 4"#, r#""width": 4000000000000"#, &["expected shape [4, 4000000000000]", "found [4, 4]"]),
         ("zarr.json", r#""width": 4"#, r#""width": -4"#, &["\"width\" is -4"]),
         ("zarr.json", r#""boundary": "periodic""#, r#""boundary": "fractal""#, &["provenance", "fractal"]),
