@@ -1,5 +1,5 @@
 // How the seen points of a tile are lit: cos theta_i against the normal seen, times the share of the light that reaches the
-// point; and what reflectance is fitted to, the plain mean of the channels' radiance. Both are 0 where a sample is masked or
+// point, and a share of what falls on the base plane, by way of other points; and what reflectance is fitted to, the plain mean of the channels' radiance. Both are 0 where a sample is masked or
 // unlit, so that it has no part in a sum. One thread an octet of one texel.
 // Tatarchuk 2006 (soft shadows). Twin: reference::shading.
 #import thread
@@ -37,11 +37,12 @@ fn shading_of(sample: u32, texel: u32) -> f32 {
     let at = directions[sample].row * params.texels + texel;
     let light = directions[sample].light;
     let cosine = dot(seen_normals[at].xyz, light);
-    if cosine <= 0.0 {
-        return 0.0;
+    var direct = 0.0;
+    if cosine > 0.0 {
+        let point = points[at];
+        direct = cosine * visibility(Hit(point.xy, point.z), light);
     }
-    let point = points[at];
-    return cosine * visibility(Hit(point.xy, point.z), light);
+    return mix(direct, max(light.z, 0.0), scene.ambient);
 }
 
 @compute @workgroup_size(SIZE)

@@ -21,6 +21,11 @@ struct Scene {
     // the frame that the unpainted reflectance is in (model::Frame), and the number of its lobes
     frame: u32,
     lobes: u32,
+    // share of the base plane's light that reaches every point by way of others (data::Svbrdf)
+    ambient: f32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 }
 
 @group(0) @binding(0) var<uniform> scene: Scene;

@@ -10,15 +10,15 @@
 const FRAME_PLANE: u32 = 0u;
 const FRAME_TEXEL: u32 = 1u;
 
-// The measured reflectance where its frame has the given normal.
-fn unpainted_radiance(texel: u32, normal: vec3<f32>) -> vec3<f32> {
+// The measured reflectance in the frame of a normal, in the given light (cos theta_i times its share).
+fn unpainted_radiance(texel: u32, normal: vec3<f32>, lit: f32) -> vec3<f32> {
     let product = product_in_frame(normal, scene.view.xyz, scene.light.xyz);
     var reflectance = diffuse[texel].rgb;
     for (var lobe = 0u; lobe < scene.lobes; lobe++) {
         let at = lobe * scene.width * scene.height + texel;
         reflectance += specular[at].rgb * lafortune(lobes[at], product);
     }
-    return reflectance * max(dot(normal, scene.light.xyz), 0.0);
+    return reflectance * lit;
 }
 
 // Kubelka-Munk diffuse below a coat: of the light 1 - F enters and leaves at the angles of light and view, divided by the mean
@@ -63,7 +63,7 @@ fn radiance_at(base: vec2<f32>) -> vec3<f32> {
             radiance += visible * coverage * painted_radiance(texel);
         }
         if scene.frame == FRAME_PLANE && weights[corner] > coverage {
-            radiance += visible * (weights[corner] - coverage) * unpainted_radiance(texel, vec3(0.0, 0.0, 1.0));
+            radiance += (weights[corner] - coverage) * unpainted_radiance(texel, vec3(0.0, 0.0, 1.0), visible * scene.light.z);
         }
     }
     if scene.frame == FRAME_PLANE || bare == 0.0 || scene.light.z < MIN_COSINE {
@@ -73,11 +73,12 @@ fn radiance_at(base: vec2<f32>) -> vec3<f32> {
     let normal = normal_at(place);
     // Shadows that no frame tells are in the measured reflectance.
     let seen = select(visible, 1.0, scene.frame == FRAME_TEXEL);
+    let lit = mix(seen * max(dot(normal, scene.light.xyz), 0.0), scene.light.z, scene.ambient);
     let own = cell_at(base);
     let own_weights = weights_of(own);
     for (var corner = 0u; corner < 4u; corner++) {
         if own_weights[corner] > 0.0 {
-            radiance += bare * seen * own_weights[corner] * unpainted_radiance(own.texels[corner], normal);
+            radiance += bare * own_weights[corner] * unpainted_radiance(own.texels[corner], normal, lit);
         }
     }
     return radiance;

@@ -19,6 +19,10 @@ pub struct Lobe {
 pub struct Svbrdf {
     /// The frame that cosine and lobes are in.
     pub frame: Frame,
+    /// Share of the light on the base plane that reaches every point by way of others, 0 to 1: the points of a relief light each other's
+    /// shadows. In its own frame a texel is lit by cos θ_i times the light's share that sees it, less this share, and by this share of the
+    /// base plane's cos θ_i.
+    pub ambient: f64,
     /// ρ_d per channel.
     pub diffuse: Map<[f32; 3]>,
     /// The lobes, 1 to [`MAX_LOBES`](crate::model::MAX_LOBES).
@@ -36,9 +40,28 @@ pub struct Candidate {
     pub height_scale: f64,
     /// Height of its mean over the plane that the pictures are rectified to, texel widths.
     pub height_level: f64,
-    /// Root of the sum of squared errors of the reconstructed radiance over that of the radiance's squares, on some texels; none if there
-    /// was nothing to choose.
-    pub relative_rms: Option<f64>,
+    /// [`Svbrdf::ambient`].
+    pub ambient: f64,
+    /// What it leaves of some texels' radiance; none if there was nothing to choose.
+    pub left: Option<Left>,
+}
+
+/// What a reconstruction leaves of the measured radiance.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Left {
+    /// Root of the sum of squared errors over that of the radiance's squares.
+    pub relative_rms: f64,
+    /// Sum of the errors, reconstruction less radiance, over that of the radiance.
+    pub bias: f64,
+}
+
+impl Left {
+    /// By which candidates are ordered: √(relative RMS² + (2 bias)²). An error that all pictures share is seen before one that
+    /// varies from place to place.
+    #[must_use]
+    pub fn cost(self) -> f64 {
+        self.relative_rms.hypot(2.0 * self.bias)
+    }
 }
 
 /// Which way of taking the surface was chosen, and why.
@@ -56,7 +79,7 @@ impl Candidate {
     /// One that is not measured, with the height as it was recovered.
     #[must_use]
     pub fn new(surface: SurfaceMode, frame: Frame) -> Self {
-        Self { surface, frame, height_scale: 1.0, height_level: 0.0, relative_rms: None }
+        Self { surface, frame, height_scale: 1.0, height_level: 0.0, ambient: 0.0, left: None }
     }
 
     /// Whether the height is as it was recovered.
@@ -88,16 +111,12 @@ impl fmt::Display for Choice {
             write!(out, " with the lobe of texel {column},{row}")?;
         }
         if self.candidates.len() > 1 {
-            write!(out, ": on {} texels its relative RMS error is the least", self.texels)?;
+            write!(out, "; on {} texels it leaves the least of the radiance", self.texels)?;
             for (index, candidate) in self.candidates.iter().enumerate() {
-                let relative_rms = candidate.relative_rms.unwrap_or(f64::NAN);
-                match index {
-                    0 => write!(out, ", {relative_rms:.4}")?,
-                    1 => write!(out, " ({candidate} {relative_rms:.4}")?,
-                    _ => write!(out, ", {candidate} {relative_rms:.4}")?,
-                }
+                let Some(Left { relative_rms, bias }) = candidate.left else { continue };
+                let name = if index == 0 { String::new() } else { format!("{candidate} ") };
+                write!(out, "{} {name}{relative_rms:.4} ({:+.1} %)", if index == 1 { ";" } else { "," }, 100.0 * bias)?;
             }
-            write!(out, ")")?;
         }
         Ok(())
     }
@@ -112,7 +131,7 @@ impl fmt::Display for Candidate {
             (SurfaceMode::Local | SurfaceMode::Auto, _) => "local in each texel's frame",
         })?;
         if !self.has_measured_height() {
-            write!(out, ", height times {:.2} and raised by {:.2},", self.height_scale, self.height_level)?;
+            write!(out, " with height times {:.2}, level {:+.2} and ambient {:.2}", self.height_scale, self.height_level, self.ambient)?;
         }
         Ok(())
     }
@@ -245,6 +264,7 @@ impl Material {
             albedo: self.albedo.repeated(columns, rows),
             svbrdf: Svbrdf {
                 frame: self.svbrdf.frame,
+                ambient: self.svbrdf.ambient,
                 diffuse: self.svbrdf.diffuse.repeated(columns, rows),
                 lobes: self
                     .svbrdf

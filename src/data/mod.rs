@@ -17,7 +17,7 @@ pub use direction::Direction;
 pub use encoding::{Encoding, RowOrder, Transfer, radiance_half};
 pub use grid::{Grid, GridError};
 pub use map::{Map, ShapeError};
-pub use material::{Candidate, Choice, Fit, FitStatus, Lobe, Material, Provenance, Svbrdf};
+pub use material::{Candidate, Choice, Fit, FitStatus, Left, Lobe, Material, Provenance, Svbrdf};
 pub use plane_view::PlaneView;
 pub use samples::{OCTET, Samples};
 

@@ -84,6 +84,7 @@ impl<'g> Studio<'g> {
         Ok(Surface {
             field: HeightField { size, heights, normals, range, boundary },
             frame: material.svbrdf.frame,
+            ambient: material.svbrdf.ambient,
             diffuse,
             specular: gpu.upload("specular", &specular)?,
             lobes: gpu.upload("lobes", &parameters)?,

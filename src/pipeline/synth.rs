@@ -59,6 +59,7 @@ impl<'g> Synthetic<'g> {
         let rgb = |channels: fn(&SynthTexel) -> [f64; 3]| texels.iter().map(|texel| channels(texel).map(stage::single)).collect();
         let svbrdf = Svbrdf {
             frame: Frame::Seen,
+            ambient: 0.0,
             diffuse: Map::new(width, height, rgb(|texel| texel.diffuse))?,
             lobes: vec![Lobe {
                 specular: Map::new(width, height, rgb(|texel| texel.specular))?,

@@ -23,6 +23,8 @@ pub struct Surface {
     pub diffuse: Map<[f64; 3]>,
     /// The frame that the unpainted material's reflectance is in.
     pub frame: Frame,
+    /// Share of the base plane's light that reaches every point of the unpainted material by way of others.
+    pub ambient: f64,
     /// ρ_s and (C_x, C_y, C_z, n) of each lobe of the unpainted material.
     pub lobes: Vec<(Map<[f64; 3]>, Map<[f64; 4]>)>,
     /// Kubelka-Munk reflectance; the fourth value is how much of the texel is painted.
@@ -66,25 +68,26 @@ impl Surface {
         match self.frame {
             Frame::Plane => {
                 for (texel, weight) in at_hit {
-                    add(weight * visible * (1.0 - self.painted[texel][3]), self.unpainted(texel, DVec3::Z, view, light));
+                    add(weight * visible * (1.0 - self.painted[texel][3]), self.unpainted(texel, DVec3::Z, view, light, light.z));
                 }
             }
             Frame::Texel | Frame::Seen => {
                 let (normal, seen) = if self.frame == Frame::Seen { (normal_at(&at_hit), visible) } else { (normal_at(&at_base), 1.0) };
+                let lit = (1.0 - self.ambient) * seen * normal.dot(light).max(0.0) + self.ambient * light.z;
                 for (texel, weight) in at_base {
-                    add(weight * seen * (1.0 - coverage(&at_hit)), self.unpainted(texel, normal, view, light));
+                    add(weight * (1.0 - coverage(&at_hit)), self.unpainted(texel, normal, view, light, lit));
                 }
             }
         }
         radiance
     }
 
-    /// Lafortune et al. 1997, thesis eq. 3.3, times cos θ_i, in the frame of `normal`.
-    fn unpainted(&self, texel: (usize, usize), normal: DVec3, view: DVec3, light: DVec3) -> [f64; 3] {
+    /// Lafortune et al. 1997, thesis eq. 3.3, in the frame of `normal`, times the light that is there.
+    fn unpainted(&self, texel: (usize, usize), normal: DVec3, view: DVec3, light: DVec3, lit: f64) -> [f64; 3] {
         let product = product_in_frame(normal, view, light);
         std::array::from_fn(|channel| {
             let of_lobe = |(specular, lobe): &(Map<[f64; 3]>, Map<[f64; 4]>)| specular[texel][channel] * lafortune(lobe[texel], product);
-            (self.diffuse[texel][channel] + self.lobes.iter().map(of_lobe).sum::<f64>()) * normal.dot(light).max(0.0)
+            (self.diffuse[texel][channel] + self.lobes.iter().map(of_lobe).sum::<f64>()) * lit
         })
     }
 

@@ -25,6 +25,10 @@ gpu_struct! {
         roughness: f32,
         frame: u32,
         lobes: u32,
+        ambient: f32,
+        _pad0: u32,
+        _pad1: u32,
+        _pad2: u32,
     }
 }
 
@@ -82,5 +86,9 @@ impl Scene {
 
     pub(super) fn in_frame(self, frame: Frame, lobes: u32) -> Self {
         Self { frame: frame.code(), lobes, ..self }
+    }
+
+    pub(super) fn with_ambient(self, ambient: f64) -> Self {
+        Self { ambient: single(ambient), ..self }
     }
 }

@@ -24,7 +24,8 @@ gpu_struct! {
 /// A tile's samples in the light that reaches them, `[octet][texel]`; both are 0 for samples that are masked or unlit.
 #[derive(Debug)]
 pub struct Shaded {
-    /// cos θ_i against the normal seen, times the share of the light that reaches the point, 0 to 1.
+    /// cos θ_i against the normal seen times the share of the light that reaches the point, and the ambient share of cos θ_i on the base
+    /// plane, 0 to 1.
     pub shading: Buffer<[f16; OCTET]>,
     /// Mean radiance of the channels, in reflectance units.
     pub means: Buffer<[f16; OCTET]>,
@@ -56,17 +57,18 @@ impl Shading {
     }
 
     /// Shading and mean radiance of a tile whose samples have the given `directions` and see the points `seen` of `field`; `relief` says
-    /// whether the field casts shadows.
+    /// whether the field casts shadows, `ambient` which share of the base plane's light every point gets by way of others.
     ///
     /// # Errors
     /// [`GpuError`] if the result does not fit the adapter.
+    #[expect(clippy::too_many_arguments, reason = "what light and surface are to a sample")]
     pub fn record(
         &self, recorder: &mut Recorder<'_>, radiance: &Tile, directions: &Buffer<SampleDirections>, field: &HeightField, seen: &Seen,
-        relief: Relief,
+        relief: Relief, ambient: f64,
     ) -> Result<Shaded, GpuError> {
         let gpu = recorder.gpu();
         let (texels, octets) = (radiance.texels, radiance.octets());
-        let scene: Buffer<Scene> = gpu.uniform("scene", &field.scene(relief))?;
+        let scene: Buffer<Scene> = gpu.uniform("scene", &field.scene(relief).with_ambient(ambient))?;
         let params = Params { texels: count(texels), octets: count(octets), samples: count(radiance.samples), _pad: 0 };
         let params = gpu.uniform("shading params", &params)?;
         let shaded = Shaded { shading: gpu.fresh("shading", octets * texels)?, means: gpu.fresh("mean radiance", octets * texels)? };

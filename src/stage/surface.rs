@@ -14,6 +14,8 @@ pub struct Surface {
     pub field: HeightField,
     /// The frame that the unpainted material's reflectance is in.
     pub frame: Frame,
+    /// Share of the base plane's light that reaches every point of the unpainted material by way of others, 0 to 1.
+    pub ambient: f64,
     /// ρ_d of the unpainted material per channel.
     pub diffuse: Buffer<[f32; 4]>,
     /// `[lobe][row][column]` ρ_s of the unpainted material per channel.
@@ -50,6 +52,9 @@ impl Surface {
     pub(crate) fn scene(&self, gpu: &Gpu, view: Direction, light: Direction, relief: Relief) -> Result<Buffer<Scene>, GpuError> {
         let texels = self.diffuse.len().max(1);
         let lobes = count((self.lobes.len() / texels).min(MAX_LOBES));
-        gpu.uniform("scene", &self.field.scene(relief).lit(view, light).coated(self.coat).in_frame(self.frame, lobes))
+        gpu.uniform(
+            "scene",
+            &self.field.scene(relief).lit(view, light).coated(self.coat).in_frame(self.frame, lobes).with_ambient(self.ambient),
+        )
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use overpaint::{
-    data::{Candidate, Choice, Direction, Encoding, Fit, FitStatus, Lobe, MAX_LOBES, Map, Material, Provenance, Svbrdf, Transfer},
+    data::{Candidate, Choice, Direction, Encoding, Fit, FitStatus, Left, Lobe, MAX_LOBES, Map, Material, Provenance, Svbrdf, Transfer},
     io::{self, Kind, material},
     model::{FitSettings, Frame, SurfaceMode},
 };
@@ -36,6 +36,7 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
         albedo: Map::from_fn(width, height, |_, _| value()),
         svbrdf: Svbrdf {
             frame: Frame::Seen,
+            ambient: 0.1 + 0.2,
             diffuse: Map::from_fn(width, height, |_, _| [value(), value(), value()]),
             lobes: (0..1 + width % MAX_LOBES)
                 .map(|_| Lobe {
@@ -54,7 +55,7 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
         },
         choice: Choice {
             candidates: vec![
-                Candidate { height_scale: 1.0 / 3.0, height_level: -0.25, relative_rms: Some(0.1), ..Candidate::new(SurfaceMode::Local, Frame::Seen) },
+                Candidate { height_scale: 1.0 / 3.0, height_level: -0.25, ambient: 0.1, left: Some(Left { relative_rms: 0.25, bias: -0.01 }), ..Candidate::new(SurfaceMode::Local, Frame::Seen) },
                 Candidate::new(SurfaceMode::Rough, Frame::Plane),
             ],
             texels: 144,
@@ -246,7 +247,7 @@ fn walk(folder: &Path) -> Vec<PathBuf> {
 fn wrong_metadata_are_named() {
     let (_folder, path) = saved(&sample([4, 4], 1));
     let edits: [(&str, &str, &str, &[&str]); 9] = [
-        ("zarr.json", r#""format_version": 2"#, r#""format_version": 2"#, &["version 2", "version 1"]),
+        ("zarr.json", r#""format_version": 2"#, r#""format_version": 3"#, &["version 3", "version 2"]),
         ("zarr.json", r#""width": 4"#, r#""width": 4000000000000"#, &["expected shape [4, 4000000000000]", "found [4, 4]"]),
         ("zarr.json", r#""width": 4"#, r#""width": -4"#, &["\"width\" is -4"]),
         ("zarr.json", r#""boundary": "periodic""#, r#""boundary": "fractal""#, &["provenance", "fractal"]),

@@ -24,7 +24,7 @@ fn a_raised_plane_is_seen_beside_its_place(gpu: &Gpu) {
     let relief = Relief::measured();
     let seen = SeenSurface::new(gpu).expect("builds").record(&mut recorder, &field, relief, &angles, &[[5, 6]]).expect("records");
     let directions = upload_directions(gpu, &samples, &[0, 1, 2, 3]).expect("fits");
-    let shaded = Shading::new(gpu).expect("builds").record(&mut recorder, &radiance, &directions, &field, &seen, relief).expect("records");
+    let shaded = Shading::new(gpu).expect("builds").record(&mut recorder, &radiance, &directions, &field, &seen, relief, 0.0).expect("records");
     gpu.submit(recorder).wait(gpu).expect("runs");
     let points = seen.points.read(gpu).expect("reads");
     for (point, view) in points.iter().zip(&angles) {
@@ -53,7 +53,7 @@ fn a_plateau_takes_its_light_from_what_lies_behind(gpu: &Gpu) {
     let seen = SeenSurface::new(gpu).expect("builds").record(&mut recorder, &field, Relief::measured(), &[zenith], &places).expect("records");
     let directions = upload_directions(gpu, &samples, &[0, 0]).expect("fits");
     let shaded =
-        Shading::new(gpu).expect("builds").record(&mut recorder, &radiance, &directions, &field, &seen, Relief::measured()).expect("records");
+        Shading::new(gpu).expect("builds").record(&mut recorder, &radiance, &directions, &field, &seen, Relief::measured(), 0.0).expect("records");
     gpu.submit(recorder).wait(gpu).expect("runs");
     let shading = tile::unpack(&shaded.shading.read(gpu).expect("reads"), 64);
     let length = 4.0 * 50.0_f64.to_radians().tan();

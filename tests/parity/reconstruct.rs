@@ -24,7 +24,7 @@ fn agrees_with_its_twin(gpu: &Gpu) {
         for boundary in [Boundary::Periodic, Boundary::Mirror] {
             let surface = bumpy(width, height, boundary, 11);
             let other = bumpy(width, height, boundary, 12).lobes;
-            let in_frame = |frame| reference::Surface { frame, lobes: [surface.lobes.clone(), other.clone()].concat(), ..surface.clone() };
+            let in_frame = |frame| reference::Surface { frame, ambient: 0.125, lobes: [surface.lobes.clone(), other.clone()].concat(), ..surface.clone() };
             for surface in [surface.clone(), in_frame(Frame::Texel), in_frame(Frame::Seen)] {
             let uploaded = upload(gpu, &surface);
             for (view, light) in [((0.0, 0.0), (35.0, 20.0)), ((40.0, 130.0), (60.0, 250.0)), ((75.0, 300.0), (75.0, 45.0))] {

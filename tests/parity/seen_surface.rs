@@ -16,6 +16,9 @@ use crate::support::{
 
 crate::suite! { gpu: points_and_shading_are_those_of_the_twins; }
 
+/// Share of the base plane's light that reaches every point.
+const AMBIENT: f64 = 0.25;
+
 /// Seen points first, then how they are lit: the second stage takes what the first gives, and so do the twins.
 fn points_and_shading_are_those_of_the_twins(gpu: &Gpu) {
     let mut random = Random::new(5);
@@ -38,7 +41,7 @@ fn points_and_shading_are_those_of_the_twins(gpu: &Gpu) {
             let mut recorder = gpu.recorder();
             let seen = seen_surface.record(&mut recorder, &field, relief, &views, &places).expect("records");
             let uploaded = upload_directions(gpu, &directions, &rows).expect("fits");
-            let shaded = shading.record(&mut recorder, &radiance, &uploaded, &field, &seen, relief).expect("records");
+            let shaded = shading.record(&mut recorder, &radiance, &uploaded, &field, &seen, relief, AMBIENT).expect("records");
             gpu.submit(recorder).wait(gpu).expect("runs");
             let (normals, points) = (seen.normals.read(gpu).expect("reads"), seen.points.read(gpu).expect("reads"));
             let Shaded { shading, means } = shaded;
@@ -69,7 +72,7 @@ fn points_and_shading_are_those_of_the_twins(gpu: &Gpu) {
 
                     // From the kernel's own point, so that only the shading is compared.
                     let point = SeenPoint { place, height: f64::from(points[at][2]), normal: [0, 1, 2].map(|axis| f64::from(normals[at][axis])) };
-                    let expected = reference::shading(&surface.heights, boundary, point, light, relief);
+                    let expected = reference::shading(&surface.heights, boundary, point, light, relief, AMBIENT);
                     if is_masked(sample, texel) {
                         assert_eq!((shading[at], means[at]), (0.0, 0.0));
                         continue;

@@ -41,7 +41,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
     writer.store(&format::NORMAL, &material.normal, material.normal.values().as_flattened())?;
     writer.store(&format::NORMAL_MEASURED, &material.normal_measured, material.normal_measured.values().as_flattened())?;
     writer.store(&format::ALBEDO, &material.albedo, material.albedo.values())?;
-    let Svbrdf { frame, diffuse, lobes } = &material.svbrdf;
+    let Svbrdf { frame, ambient, diffuse, lobes } = &material.svbrdf;
     writer.store(&format::DIFFUSE, diffuse, diffuse.values().as_flattened())?;
     for (index, Lobe { specular, parameters }) in lobes.iter().enumerate().take(MAX_LOBES) {
         writer.store(&format::SPECULAR[index], specular, specular.values().as_flattened())?;
@@ -63,6 +63,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
         ("width", json!(width)),
         ("height", json!(height)),
         ("frame", json!(frame)),
+        ("ambient", json!(ambient)),
         ("choice", json!(material.choice)),
         ("lobes", json!(lobes.len())),
         ("conventions", conventions::MATERIAL.iter().copied().collect()),
@@ -99,6 +100,8 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         .map_err(|error| not_a_material(format!("its attribute \"frame\" cannot be read: {error}")))?;
     let choice: Choice = serde_json::from_value(attributes["choice"].clone())
         .map_err(|error| not_a_material(format!("its attribute \"choice\" cannot be read: {error}")))?;
+    let ambient = attributes["ambient"].as_f64().filter(|ambient| (0.0..=1.0).contains(ambient));
+    let ambient = ambient.ok_or_else(|| not_a_material(format!("its attribute \"ambient\" is {}", attributes["ambient"])))?;
     let lobes = attributes["lobes"].as_u64().and_then(|lobes| usize::try_from(lobes).ok()).filter(|lobes| (1..=MAX_LOBES).contains(lobes));
     let lobes = lobes.ok_or_else(|| not_a_material(format!("its attribute \"lobes\" is {}", attributes["lobes"])))?;
     let provenance: Provenance = serde_json::from_value(attributes["provenance"].clone())
@@ -119,7 +122,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         normal: reader.vectors(&format::NORMAL)?,
         normal_measured: reader.vectors(&format::NORMAL_MEASURED)?,
         albedo: reader.scalars(&format::ALBEDO)?,
-        svbrdf: Svbrdf { frame, diffuse: reader.vectors(&format::DIFFUSE)?, lobes },
+        svbrdf: Svbrdf { frame, ambient, diffuse: reader.vectors(&format::DIFFUSE)?, lobes },
         fit: Fit {
             objective_without_lobe: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,

@@ -39,7 +39,7 @@ pub fn framed(
         let seen = seen_surface.record(recorder, &surface.field, relief, btf.views(), &places)?;
         let radiance = Tile { values: gpu.upload("white", &white)?, texels: 1, samples: samples.len() };
         let directions = upload_directions(gpu, &samples, &rows)?;
-        let shaded = shading.record(recorder, &radiance, &directions, &surface.field, &seen, relief)?;
+        let shaded = shading.record(recorder, &radiance, &directions, &surface.field, &seen, relief, surface.ambient)?;
         Ok::<_, PipelineError>((seen, shaded))
     })?;
     let (normals, shading) = (seen.normals.read(gpu)?, shaded.shading.read(gpu)?);

@@ -4,14 +4,17 @@
 //! Along with it comes what a single view leaves open of the height. Photometric stereo of the zenith view flattens a relief, since what
 //! its walls throw on each other lights its shadows, and an integral has no level. But seen obliquely a point stands beside its place by
 //! its height over the plane that the pictures are rectified to, so that the right scale and level are those under which the points seen
-//! explain the oblique views best. They are found by pattern search (Hooke, Jeeves 1961) with the same measure.
+//! explain the oblique views best. They are found by pattern search (Hooke, Jeeves 1961) with the same measure, together with the share
+//! of light that the points of a relief throw on each other.
+
+use std::cmp::Ordering;
 
 use super::{
     FittedTile, Model, Stages, lit_samples,
     local::{Framed, FramedTile},
 };
 use crate::{
-    data::{Block, Candidate, Choice},
+    data::{Block, Candidate, Choice, Left},
     model::{FitSettings, Frame, SurfaceMode},
     pipeline::{
         PipelineError,
@@ -23,20 +26,22 @@ use crate::{
 
 /// Texels are measured in this many patches along each edge of the plane, each of so many texels along an edge: enough that the best
 /// candidate is the best of the whole plane, and few of a large plane's chunks are read.
-const PATCHES: usize = 4;
-const PATCH: usize = 3;
+const PATCHES: usize = 6;
+const PATCH: usize = 2;
 
 /// Samples of a texel that are measured at most: enough to tell candidates that differ by a hundredth, since all of them see the same.
 const MAX_SAMPLES: usize = 2048;
 
-/// First steps of the search for the height's scale (a factor) and level (of the standard deviation of the height), and how often they are
-/// halved: to a factor of 1.06 and an eighth of the deviation.
+/// First steps of the search: a factor on the height, its level in standard deviations of the height, and the ambient share; and how often
+/// they are halved.
 const SCALE_STEP: f64 = 1.25;
 const LEVEL_STEP: f64 = 0.5;
-const HALVINGS: usize = 2;
-/// Bounds of the scale and the level, the latter in standard deviations: a level outside the relief is none.
+const AMBIENT_STEP: f64 = 0.1;
+const HALVINGS: usize = 1;
+/// Bounds of the scale, the level (one outside the relief is none) and the ambient share.
 const SCALES: [f64; 2] = [0.5, 3.0];
-const LEVELS: [f64; 2] = [-3.0, 3.0];
+const MAX_LEVEL: f64 = 3.0;
+const MAX_AMBIENT: f64 = 0.5;
 
 /// The candidates that the settings leave open, best first, and the texel whose lobe serves all of a rough surface.
 pub(in crate::pipeline) fn choose(
@@ -58,14 +63,14 @@ pub(in crate::pipeline) fn choose(
         let measure = Measure::new(job, stages, settings, geometry, representative)?;
         texels = measure.places.len();
         for candidate in &mut candidates {
-            candidate.relative_rms = Some(measure.relative_rms(candidate)?);
+            candidate.left = Some(measure.left(candidate)?);
         }
         // A single view sees no parallax.
         let seen = candidates.iter().find(|candidate| candidate.frame == Frame::Seen).filter(|_| job.source.btf().views().len() > 1);
         if let Some(better) = seen.map(|seen| measure.search(seen)).transpose()?.flatten() {
             candidates.push(better);
         }
-        candidates.sort_by(|a, b| a.relative_rms.unwrap_or(0.0).total_cmp(&b.relative_rms.unwrap_or(0.0)));
+        candidates.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     }
     Ok(Choice { candidates, texels, representative })
 }
@@ -94,8 +99,8 @@ impl<'a> Measure<'a> {
         Ok(Self { job, stages, settings, geometry, representative, samples, gathered, places })
     }
 
-    /// What a candidate leaves of the radiance: root of the sum of squared errors over that of squares.
-    fn relative_rms(&self, candidate: &Candidate) -> Result<f64, PipelineError> {
+    /// What a candidate leaves of the radiance.
+    fn left(&self, candidate: &Candidate) -> Result<Left, PipelineError> {
         let Self { job, stages, settings, gathered, places, samples, .. } = self;
         let moved;
         let field = if candidate.has_measured_height() {
@@ -106,7 +111,7 @@ impl<'a> Measure<'a> {
         };
         let model = Model::new(job, stages, settings, field, candidate, self.representative, samples.clone())?;
         let FittedTile { coefficients, lobes, .. } = model.fit(gathered, places)?;
-        let framed = Framed::new(job, stages, samples, field, candidate.frame)?;
+        let framed = Framed::new(job, stages, samples, field, candidate)?;
         let FramedTile { seen, shaded } = framed.tile(&gathered.tile, places)?;
         let sums = run(job.gpu, job.progress, "radiance_error", [places.len(), samples.len()], |recorder| {
             let (shading, directions) = (&shaded.shading, framed.directions());
@@ -114,8 +119,13 @@ impl<'a> Measure<'a> {
             stages.radiance_error.record(recorder, &gathered.tile, shading, directions, &seen.normals, diffuse, specular, &lobes)
         })?;
         let sums = sums.read(job.gpu)?;
-        let [error, all] = [0, 1].map(|of| sums.iter().map(|sums| f64::from(sums[of])).sum::<f64>());
-        Ok(if all > 0.0 { (error / all).sqrt() } else { 0.0 })
+        let [squared_error, squares, error, radiance] = [0, 1, 2, 3].map(|of| sums.iter().map(|sums| f64::from(sums[of])).sum::<f64>());
+        // Of nothing nothing is left.
+        Ok(if squares > 0.0 {
+            Left { relative_rms: (squared_error / squares).sqrt(), bias: error / radiance }
+        } else {
+            Left { relative_rms: 0.0, bias: 0.0 }
+        })
     }
 
     /// The scale and level of the height with which `seen` leaves less than as it is, if there are such.
@@ -124,28 +134,30 @@ impl<'a> Measure<'a> {
         #[expect(clippy::cast_precision_loss, reason = "texels of a plane")]
         let deviation = (heights.iter().map(|&z| f64::from(z).powi(2)).sum::<f64>() / heights.len() as f64).sqrt();
         let mut best = *seen;
-        let (mut factor, mut shift) = (SCALE_STEP, LEVEL_STEP * deviation);
+        let mut size = 1.0;
         for _ in 0..=HALVINGS {
-            loop {
-                let before = best;
-                let around = [(factor, 0.0), (1.0 / factor, 0.0), (1.0, shift), (1.0, -shift)];
-                for (scale, level) in around {
-                    let tried = Candidate {
-                        height_scale: (before.height_scale * scale).clamp(SCALES[0], SCALES[1]),
-                        height_level: (before.height_level + level).clamp(LEVELS[0] * deviation, LEVELS[1] * deviation),
-                        relative_rms: None,
-                        ..before
-                    };
-                    let error = self.relative_rms(&tried)?;
-                    if best.relative_rms.is_none_or(|least| error < least) {
-                        best = Candidate { relative_rms: Some(error), ..tried };
+            // One coordinate after the other; the way that helped is gone again.
+            for step in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+                for way in [size, -size] {
+                    loop {
+                        let [scale, level, ambient] = step.map(|of| of * way);
+                        let tried = Candidate {
+                            height_scale: (best.height_scale * SCALE_STEP.powf(scale)).clamp(SCALES[0], SCALES[1]),
+                            height_level: (best.height_level + level * LEVEL_STEP * deviation)
+                                .clamp(-MAX_LEVEL * deviation, MAX_LEVEL * deviation),
+                            ambient: (best.ambient + ambient * AMBIENT_STEP).clamp(0.0, MAX_AMBIENT),
+                            ..best
+                        };
+                        let tried = Candidate { left: Some(self.left(&tried)?), ..tried };
+                        // Also at the bounds, where nothing changes.
+                        if cost(&tried).partial_cmp(&cost(&best)) != Some(Ordering::Less) {
+                            break;
+                        }
+                        best = tried;
                     }
                 }
-                if best == before {
-                    break;
-                }
             }
-            (factor, shift) = (factor.sqrt(), shift / 2.0);
+            size /= 2.0;
         }
         Ok(Some(best).filter(|best| best != seen))
     }
@@ -164,15 +176,29 @@ fn representative(job: &Job<'_>, settings: &FitSettings, field: &HeightField) ->
     Ok([flattest % width, flattest / width])
 }
 
-/// Patches spread evenly over a plane; its upper left corner if it is small.
+/// A candidate's cost; one that is not measured costs nothing.
+fn cost(candidate: &Candidate) -> f64 {
+    candidate.left.map_or(0.0, Left::cost)
+}
+
+/// Patches spread over a plane, one in each of its parts, at places that follow no period (Roberts 2018: the R2 sequence): a material that
+/// repeats within the plane is not met at the same place each time. The upper left corner of a plane that is small.
 fn patches(size: [usize; 2]) -> Vec<Block> {
     if size.iter().any(|&side| side < PATCHES * PATCH) {
         let [width, height] = size.map(|side| side.min(PATCHES * PATCH));
         return vec![Block { column: 0, row: 0, width, height }];
     }
-    // In the middle of each of the plane's parts.
-    let start = |side: usize, part: usize| (2 * part + 1) * side / (2 * PATCHES) - PATCH / 2;
-    let patch =
-        |index: usize| Block { column: start(size[0], index % PATCHES), row: start(size[1], index / PATCHES), width: PATCH, height: PATCH };
+    // 1/p and 1/p^2 of the plastic number p, p^3 = p + 1.
+    const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
+    let patch = |index: usize| {
+        let part = [index % PATCHES, index / PATCHES];
+        let [column, row] = [0, 1].map(|axis| {
+            let [start, end] = [0, 1].map(|of| (part[axis] + of) * size[axis] / PATCHES);
+            #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "texels of a part")]
+            let within = ((index as f64 * STEPS[axis]).fract() * (end - start + 1 - PATCH) as f64) as usize;
+            start + within
+        });
+        Block { column, row, width: PATCH, height: PATCH }
+    };
     (0..PATCHES * PATCHES).map(patch).collect()
 }

@@ -4,7 +4,7 @@
 
 use super::{FittedTile, Stages};
 use crate::{
-    data::{Direction, Samples},
+    data::{Candidate, Direction, Samples},
     gpu::{Buffer, Gpu},
     model::{FitSettings, Frame, Relief},
     pipeline::{
@@ -26,10 +26,10 @@ pub(super) struct LocalFit<'a> {
 impl<'a> LocalFit<'a> {
     /// Fitted to the given samples of the source.
     pub fn new(
-        job: &Job<'a>, stages: &'a Stages, settings: &'a FitSettings, field: &'a HeightField, frame: Frame, samples: Vec<usize>,
+        job: &Job<'a>, stages: &'a Stages, settings: &'a FitSettings, field: &'a HeightField, candidate: &Candidate, samples: Vec<usize>,
     ) -> Result<Self, PipelineError> {
         let Job { gpu, progress, .. } = *job;
-        Ok(Self { gpu, progress, settings, stages, framed: Framed::new(job, stages, &samples, field, frame)?, samples })
+        Ok(Self { gpu, progress, settings, stages, framed: Framed::new(job, stages, &samples, field, candidate)?, samples })
     }
 
     pub fn samples(&self) -> &[usize] {
@@ -86,6 +86,7 @@ pub(super) struct Framed<'a> {
     field: &'a HeightField,
     relief: Relief,
     frame: Frame,
+    ambient: f64,
     views: Vec<Direction>,
     directions: Buffer<SampleDirections>,
     stages: &'a Stages,
@@ -99,18 +100,21 @@ pub(super) struct FramedTile {
 
 impl<'a> Framed<'a> {
     /// For the given samples of the source.
-    pub fn new(job: &Job<'a>, stages: &'a Stages, samples: &[usize], field: &'a HeightField, frame: Frame) -> Result<Self, PipelineError> {
+    pub fn new(
+        job: &Job<'a>, stages: &'a Stages, samples: &[usize], field: &'a HeightField, candidate: &Candidate,
+    ) -> Result<Self, PipelineError> {
         let Job { gpu, source, progress, .. } = *job;
         let btf = source.btf();
         let rows: Vec<u32> = samples.iter().map(|&sample| stage::count(btf.pairs()[sample].view)).collect();
         let samples = Samples::new(samples.iter().map(|&sample| btf.directions(sample)).collect());
-        let is_seen = frame == Frame::Seen;
+        let is_seen = candidate.frame == Frame::Seen;
         Ok(Self {
             gpu,
             progress,
             field,
             relief: Relief { displace: is_seen, shadow: is_seen, ..Relief::measured() },
-            frame,
+            frame: candidate.frame,
+            ambient: candidate.ambient,
             views: btf.views().to_vec(),
             directions: upload_directions(gpu, &samples, &rows)?,
             stages,
@@ -132,7 +136,7 @@ impl<'a> Framed<'a> {
             })?
         };
         let shaded = run(gpu, progress, "shading", [radiance.texels, radiance.samples], |recorder| {
-            stages.shading.record(recorder, radiance, &self.directions, field, &seen, relief)
+            stages.shading.record(recorder, radiance, &self.directions, field, &seen, relief, self.ambient)
         })?;
         Ok(FramedTile { seen, shaded })
     }

@@ -46,6 +46,7 @@ pub(super) fn recover(
     };
     let svbrdf = Svbrdf {
         frame: candidate.frame,
+        ambient: candidate.ambient,
         diffuse: texels.map(|texel| rgb(texel.diffuse)),
         lobes: (0..settings.lobes as usize).map(lobe).collect(),
     };
@@ -108,7 +109,7 @@ impl<'a> Model<'a> {
         Ok(match candidate.surface {
             SurfaceMode::Flat => Self::Plane(PlaneFit::flat(job, stages, settings, &samples)),
             SurfaceMode::Rough => Self::Plane(PlaneFit::rough(job, stages, settings, &samples, representative.unwrap_or_default())?),
-            SurfaceMode::Local | SurfaceMode::Auto => Self::Local(LocalFit::new(job, stages, settings, field, candidate.frame, samples)?),
+            SurfaceMode::Local | SurfaceMode::Auto => Self::Local(LocalFit::new(job, stages, settings, field, candidate, samples)?),
         })
     }
 
