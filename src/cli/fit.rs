@@ -107,14 +107,16 @@ impl Fit {
         let source = io::open_with(&self.source, &self.reading.options())?;
         let session = session.open()?;
         let unfinished = Unfinished::begin(&self.output, &pipeline::fit_job(&session.gpu, source.as_ref(), &settings))?;
+        let mut surface = String::new();
         if !unfinished.is_complete() {
             let memory = self.memory.memory(Some(self.adapter_memory));
             let material = pipeline::fit_within(&session.gpu, source.as_ref(), &settings, memory, Some(&unfinished), &session.progress)?;
             io::material::save(&self.output, &material)?;
+            surface = format!("\nsurface: {}", material.choice);
         }
         let resumed = if unfinished.is_resumed() { " (an earlier run had begun it)" } else { "" };
         unfinished.commit()?;
         let times = session.finish()?;
-        say(&format!("{times}\nwrote {}{resumed}", self.output.display()))
+        say(&format!("{times}{surface}\nwrote {}{resumed}", self.output.display()))
     }
 }

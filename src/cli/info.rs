@@ -77,7 +77,7 @@ enum Content {
         masked: u64,
         choice: Choice,
         lobes: usize,
-        provenance: Provenance,
+        provenance: Box<Provenance>,
         #[serde(serialize_with = "as_map")]
         conventions: &'static [Convention],
     },
@@ -167,7 +167,7 @@ impl Content {
             masked: material.fit.masked.values().iter().copied().map(u64::from).sum(),
             choice: material.choice.clone(),
             lobes: material.svbrdf.lobes.len(),
-            provenance: material.provenance.clone(),
+            provenance: Box::new(material.provenance.clone()),
             conventions: conventions::MATERIAL,
         }
     }

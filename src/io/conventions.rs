@@ -28,7 +28,7 @@ pub const MATERIAL: &[Convention] = &[
     ANGLES,
     COLOR,
     PIXEL,
-    ("height", "texel widths, positive outwards, mean zero"),
+    ("height", "texel widths over the plane that the pictures are rectified to, positive outwards"),
     ("reflectance", "pi f_r: a white Lambertian surface has 1"),
     ("model", "pi f_r = diffuse + specular * lobe"),
 ];

@@ -13,7 +13,7 @@ use crate::{
 
 /// What photometric stereo and integration give.
 pub(super) struct Geometry {
-    /// Height in texel widths, mean zero.
+    /// Height in texel widths, its mean at the level that was given, else 0.
     pub height: Map<f32>,
     /// Normals of that height.
     pub normal: Map<[f32; 3]>,

@@ -49,7 +49,7 @@ pub use plane::plane;
 pub use radiance_error::radiance_error;
 pub use reconstruct::reconstruct;
 pub use seen_surface::{SeenPoint, seen_surface};
-pub use shade::Surface;
+pub use shade::{LobeMaps, Surface};
 pub use shading::shading;
 pub use specular_residual::specular_residual;
 pub use specular_scale::specular_scale;

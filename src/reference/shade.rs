@@ -12,6 +12,9 @@ use crate::{
     },
 };
 
+/// ρ_s and (C_x, C_y, C_z, n) of one lobe.
+pub type LobeMaps = (Map<[f64; 3]>, Map<[f64; 4]>);
+
 /// A material as the renderer sees it: the maps of [`stage::Surface`](crate::stage::Surface) in f64.
 #[derive(Debug, Clone)]
 pub struct Surface {
@@ -26,7 +29,7 @@ pub struct Surface {
     /// Share of the base plane's light that reaches every point of the unpainted material by way of others.
     pub ambient: f64,
     /// ρ_s and (C_x, C_y, C_z, n) of each lobe of the unpainted material.
-    pub lobes: Vec<(Map<[f64; 3]>, Map<[f64; 4]>)>,
+    pub lobes: Vec<LobeMaps>,
     /// Kubelka-Munk reflectance; the fourth value is how much of the texel is painted.
     pub painted: Map<[f64; 4]>,
     /// What stands beyond the edge.
@@ -86,7 +89,7 @@ impl Surface {
     fn unpainted(&self, texel: (usize, usize), normal: DVec3, view: DVec3, light: DVec3, lit: f64) -> [f64; 3] {
         let product = product_in_frame(normal, view, light);
         std::array::from_fn(|channel| {
-            let of_lobe = |(specular, lobe): &(Map<[f64; 3]>, Map<[f64; 4]>)| specular[texel][channel] * lafortune(lobe[texel], product);
+            let of_lobe = |(specular, lobe): &LobeMaps| specular[texel][channel] * lafortune(lobe[texel], product);
             (self.diffuse[texel][channel] + self.lobes.iter().map(of_lobe).sum::<f64>()) * lit
         })
     }

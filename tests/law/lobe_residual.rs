@@ -16,7 +16,7 @@ fn a_model_of_itself_leaves_nothing(gpu: &Gpu) {
     let normal = glam::DVec3::new(0.3, -0.2, 1.0).normalize().as_vec3();
     let lobes = [[-0.9_f32, -0.8, 0.95, 8.0], [0.1, 0.2, 0.9, 2.0]];
     let (diffuse, specular) = (0.25, [0.5, 0.125]);
-    let is_lit = |sample: usize| sample % 7 != 0;
+    let is_lit = |sample: usize| !sample.is_multiple_of(7);
     let shading = |sample: usize, light: glam::DVec3| if is_lit(sample) { normal.as_dvec3().dot(light).max(0.0) } else { 0.0 };
     let (mut lit, mut means) = (vec![[f16::ZERO; 8]; samples / 8], vec![[f16::ZERO; 8]; samples / 8]);
     for (sample, (view, light)) in directions.directions().iter().enumerate() {

@@ -49,15 +49,15 @@ fn points_and_shading_are_those_of_the_twins(gpu: &Gpu) {
             assert!(shading[samples * texels..].iter().chain(&means[samples * texels..]).all(|&value| value == 0.0));
 
             for (sample, &(view, light)) in directions.directions().iter().enumerate() {
-                for texel in 0..texels {
+                for (texel, place) in places.iter().enumerate() {
                     let at = sample * texels + texel;
-                    let base = places[texel].map(f64::from);
+                    let base = place.map(f64::from);
                     let of_twin = |heights: &Map<f64>| {
                         reference::seen_surface(heights, &surface.normals, boundary, base, relief.displace.then_some(view))
                     };
                     let expected = of_twin(&surface.heights);
-                    let place: [f64; 2] = [0, 1].map(|axis| f64::from(points[at][axis]));
-                    let off = (0..2).map(|axis| (place[axis] - expected.place[axis]).abs()).worst();
+                    let found: [f64; 2] = [0, 1].map(|axis| f64::from(points[at][axis]));
+                    let off = (0..2).map(|axis| (found[axis] - expected.place[axis]).abs()).worst();
                     compared += 1;
                     // The search steps half a texel: a ray that grazes a summit may be taken for one that misses it.
                     if off > 0.01 {
@@ -71,7 +71,7 @@ fn points_and_shading_are_those_of_the_twins(gpu: &Gpu) {
                     hold("seen_surface: normals", turned, 2e-4);
 
                     // From the kernel's own point, so that only the shading is compared.
-                    let point = SeenPoint { place, height: f64::from(points[at][2]), normal: [0, 1, 2].map(|axis| f64::from(normals[at][axis])) };
+                    let point = SeenPoint { place: found, height: f64::from(points[at][2]), normal: [0, 1, 2].map(|axis| f64::from(normals[at][axis])) };
                     let expected = reference::shading(&surface.heights, boundary, point, light, relief, AMBIENT);
                     if is_masked(sample, texel) {
                         assert_eq!((shading[at], means[at]), (0.0, 0.0));

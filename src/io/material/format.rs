@@ -40,7 +40,8 @@ const fn lobe(name: &'static str) -> Layout {
     layout(name, parameters, "1", "lobe (C_x l_x v_x + C_y l_y v_y + C_z l_z v_z)^n, Lafortune et al. 1997")
 }
 
-pub(super) const HEIGHT: Layout = layout("height", None, "texel widths", "height, positive outwards, mean zero");
+pub(super) const HEIGHT: Layout =
+    layout("height", None, "texel widths", "height over the plane that the pictures are rectified to, positive outwards");
 pub(super) const NORMAL: Layout = layout("normal", XYZ, "1", "unit normals of the height field");
 pub(super) const NORMAL_MEASURED: Layout = layout("normal_measured", XYZ, "1", "unit normals of photometric stereo, before integration");
 pub(super) const ALBEDO: Layout = layout("albedo", None, "reflectance", "albedo of photometric stereo");
