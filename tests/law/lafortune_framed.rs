@@ -311,7 +311,7 @@ fn a_given_lobe_has_its_best_amplitude(gpu: &Gpu) {
         hold("lafortune_fit: a given lobe's objective", (f64::from(objectives[texel][1]) / least - 1.0).abs(), 1e-5);
     }
     // That of a representative without a lobe, and one that no sample sees.
-    for unseen in [none.map(|value| value as f32), [0.0, 0.0, -1.0, 2.0]] {
+    for unseen in [none, [0.0, 0.0, -1.0, 2.0]] {
         let (lobes, objectives, _) = run(unseen);
         assert!(lobes.iter().all(|lobe| lobe[..3] == [0.0; 3]));
         assert!(objectives.iter().all(|[energy, objective]| energy == objective));
