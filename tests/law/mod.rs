@@ -11,6 +11,7 @@ crate::suites! {
     gather,
     kubelka_munk,
     lafortune_fit,
+    lafortune_framed,
     lafortune_recovery,
     linear_refit,
     lobe_residual,
@@ -32,6 +33,7 @@ crate::suites! {
     specular_residual,
     specular_scale,
     spectrum,
+    surface_modes,
     synth,
     tiles,
 }

@@ -9,6 +9,7 @@ crate::suites! {
     gather,
     kubelka_munk,
     lafortune_fit,
+    lafortune_framed,
     linear_refit,
     lobe_residual,
     microfacet,

@@ -3,9 +3,10 @@
 use glam::DVec3;
 use half::f16;
 use overpaint::{
-    data::{Direction, OCTET, Samples},
+    data::{Direction, FitStatus, OCTET, Samples},
     gpu::{Buffer, Gpu},
-    reference::LocalSample,
+    model::{FitSettings, product_in_frame},
+    reference::{FramedSample, LocalSample},
     stage::{self, SampleDirections, Tile, upload_directions},
 };
 
@@ -31,6 +32,16 @@ pub struct Uploaded {
     pub directions: Buffer<SampleDirections>,
     pub normals: Buffer<[f32; 4]>,
     pub lobes: Buffer<[f32; 4]>,
+}
+
+/// What a fit in frames gives for a texel.
+pub struct Fitted {
+    /// (C_x, C_y, C_z, n)
+    pub lobe: [f64; 4],
+    /// Mean squared residuals without a lobe and with it, radiance².
+    pub objectives: [f64; 2],
+    pub status: FitStatus,
+    pub steps: u32,
 }
 
 /// A lobe towards the mirrored light, the `index`th of a texel narrower than those before.
@@ -62,19 +73,33 @@ impl Local {
         made
     }
 
+    /// The samples of a row of normals under one view, as those of a source are; lights and shading stay.
+    pub fn by_view(mut self, random: &mut Random) -> Self {
+        let rows = self.rows.iter().max().map_or(0, |row| *row as usize + 1);
+        let views: Vec<Direction> = tile::directions(random, rows).directions().iter().map(|(view, _)| *view).collect();
+        let lights = self.samples.directions().iter().map(|(_, light)| *light);
+        self.samples = Samples::new(self.rows.iter().map(|row| views[*row as usize]).zip(lights).collect());
+        self
+    }
+
     fn normal(&self, sample: usize, texel: usize) -> DVec3 {
         let [x, y, z, _] = self.normals[self.rows[sample] as usize * self.texels + texel].map(f64::from);
         DVec3::new(x, y, z).normalize()
     }
 
-    pub fn upload(&self, gpu: &Gpu) -> Uploaded {
-        let mut shading = vec![[f16::ZERO; OCTET]; self.samples.octets() * self.texels];
-        for (index, value) in self.shading.iter().enumerate() {
+    /// Values `[sample][texel]` as `[octet][texel]`.
+    fn octets(&self, values: &[f64]) -> Vec<[f16; OCTET]> {
+        let mut octets = vec![[f16::ZERO; OCTET]; self.samples.octets() * self.texels];
+        for (index, value) in values.iter().enumerate() {
             let (sample, texel) = (index / self.texels, index % self.texels);
-            shading[sample / OCTET * self.texels + texel][sample % OCTET] = f16::from_f64(*value);
+            octets[sample / OCTET * self.texels + texel][sample % OCTET] = f16::from_f64(*value);
         }
+        octets
+    }
+
+    pub fn upload(&self, gpu: &Gpu) -> Uploaded {
         Uploaded {
-            shading: gpu.upload("shading", &shading).expect("fits"),
+            shading: gpu.upload("shading", &self.octets(&self.shading)).expect("fits"),
             directions: upload_directions(gpu, &self.samples, &self.rows).expect("fits"),
             normals: gpu.upload("normals", &self.normals).expect("fits"),
             lobes: gpu.upload("lobes", &self.lobes).expect("fits"),
@@ -96,6 +121,37 @@ impl Local {
             shading: self.shading[sample * self.texels + texel],
             radiance,
         }
+    }
+
+    /// The samples of a texel with the residual radiance `[sample][texel]`, as the twin of the fit sees them.
+    pub fn framed(&self, texel: usize, residual: &[f64]) -> Vec<FramedSample> {
+        let framed = |sample: usize| {
+            let LocalSample { view, light, normal, shading, .. } = self.sample(sample, texel, [0.0; 3]);
+            let residual = residual[sample * self.texels + texel];
+            FramedSample { product: product_in_frame(normal, view, light), shading, residual }
+        };
+        (0..self.samples.len()).map(framed).collect()
+    }
+
+    /// Fits a lobe a texel to residual radiance `[sample][texel]` of halves.
+    pub fn fit(&self, gpu: &Gpu, residual: &[f64], settings: &FitSettings) -> Vec<Fitted> {
+        let stage = stage::LafortuneFit::new(gpu).expect("builds");
+        let Uploaded { shading, directions, normals, .. } = self.upload(gpu);
+        let residual = gpu.upload("residual", &self.octets(residual)).expect("fits");
+        let mut recorder = gpu.recorder();
+        let fitted =
+            stage.record_framed(&mut recorder, &residual, &shading, &directions, &normals, self.texels, settings).expect("records");
+        gpu.submit(recorder).wait(gpu).expect("runs");
+        let (lobes, objectives) = (fitted.lobes.read(gpu).expect("reads"), fitted.objectives.read(gpu).expect("reads"));
+        let outcomes = fitted.outcomes.read(gpu).expect("reads");
+        assert_eq!([lobes.len(), objectives.len(), outcomes.len()], [self.texels; 3]);
+        let of = |texel: usize| Fitted {
+            lobe: lobes[texel].map(f64::from),
+            objectives: objectives[texel].map(f64::from),
+            status: FitStatus::from_code(outcomes[texel][0]).expect("is a status"),
+            steps: outcomes[texel][1],
+        };
+        (0..self.texels).map(of).collect()
     }
 
     /// The samples of a texel with the radiance of a tile `[channel][sample, filled up][texel]` ([`tile::unpack`]).

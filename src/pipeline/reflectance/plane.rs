@@ -3,7 +3,7 @@
 
 use super::{FittedTile, Stages};
 use crate::{
-    data::{Block, Samples},
+    data::{Block, FitStatus, Samples},
     gpu::Gpu,
     model::FitSettings,
     pipeline::{
@@ -83,6 +83,13 @@ impl<'a> PlaneFit<'a> {
         let specular = run(gpu, progress, "specular_scale", size, |recorder| {
             stages.specular_scale.record(recorder, &reflectance, samples, &diffuse, &fitted.lobes, settings)
         })?;
-        FittedTile::of_lobe(gpu, Refitted { diffuse, specular }, fitted)
+        let mut tile = FittedTile::of_lobe(gpu, Refitted { diffuse, specular }, fitted)?;
+        if self.shared.is_some() {
+            let without = [FitStatus::NoSpecular, FitStatus::TooFewSamples].map(|status| status as u32);
+            for [status, _] in tile.outcomes.iter_mut().filter(|[status, _]| !without.contains(status)) {
+                *status = FitStatus::Shared as u32;
+            }
+        }
+        Ok(tile)
     }
 }
