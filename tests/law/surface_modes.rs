@@ -84,7 +84,7 @@ fn a_flat_plane_is_taken_to_rounding(gpu: &Gpu) {
 /// The candidates stand in the order of what they leave.
 fn assert_is_best(material: &Material) {
     let choice = &material.choice;
-    let errors: Vec<f64> = choice.candidates.iter().map(|candidate| candidate.relative_rms.expect("was measured")).collect();
+    let errors: Vec<f64> = choice.candidates.iter().map(|candidate| candidate.left.expect("was measured").cost()).collect();
     assert!(errors.is_sorted() && (4..=5).contains(&errors.len()), "{errors:?}");
     assert_eq!((choice.chosen(), choice.texels), (choice.candidates[0], 144));
     for surface in [SurfaceMode::Flat, SurfaceMode::Rough, SurfaceMode::Local] {

@@ -5,20 +5,28 @@ use std::fs;
 use overpaint::{
     gpu::Gpu,
     io::{IoError, Source, Unfinished},
-    model::FitSettings,
+    model::{FitSettings, SurfaceMode},
     pipeline::{Memory, Observer, Progress, fit_job, fit_within, import},
 };
 
 use crate::support::speckle::Speckle;
 
-crate::suite! { gpu: any_tiles_give_the_same_bits, a_dataset_gives_the_bits_of_its_source, kept_tiles_are_taken_up, pairs_may_be_missing; }
+crate::suite! { gpu: any_tiles_give_the_same_bits, any_tiles_give_the_same_bits_of_a_local_surface, a_dataset_gives_the_bits_of_its_source, kept_tiles_are_taken_up, pairs_may_be_missing; }
 
 const SIZE: [usize; 2] = [9, 7];
 
+fn settings(surface: SurfaceMode) -> FitSettings {
+    FitSettings { surface, ..FitSettings::default() }
+}
+
 /// The bits of a material.
 fn fitted(gpu: &Gpu, source: &dyn Source, memory: Memory, unfinished: Option<&Unfinished>) -> Vec<u32> {
+    fitted_as(gpu, source, SurfaceMode::Flat, memory, unfinished)
+}
+
+fn fitted_as(gpu: &Gpu, source: &dyn Source, surface: SurfaceMode, memory: Memory, unfinished: Option<&Unfinished>) -> Vec<u32> {
     let progress = Progress::new(gpu.adapter());
-    let material = fit_within(gpu, source, &FitSettings::default(), memory, unfinished, &progress).expect("fits");
+    let material = fit_within(gpu, source, &settings(surface), memory, unfinished, &progress).expect("fits");
     let svbrdf = material.svbrdf;
     let mut bits: Vec<u32> = material.height.values().iter().map(|z| z.to_bits()).collect();
     for map in [&svbrdf.diffuse, &svbrdf.lobes[0].specular, &material.normal_measured] {
@@ -48,6 +56,16 @@ fn any_tiles_give_the_same_bits(gpu: &Gpu) {
     }
 }
 
+/// What is chosen by measure, too, and each texel's points in a relief of the whole plane.
+fn any_tiles_give_the_same_bits_of_a_local_surface(gpu: &Gpu) {
+    let source = Speckle::new(SIZE, 0);
+    let local = |memory| fitted_as(gpu, &source, SurfaceMode::Local, memory, None);
+    let whole = local(Memory::default());
+    for (tile, block) in [(1, 2), (10, 20)] {
+        assert!(whole == local(memory(tile, block)), "tiles of {tile} texels, blocks of {block}");
+    }
+}
+
 fn a_dataset_gives_the_bits_of_its_source(gpu: &Gpu) {
     let mut source = Speckle::new(SIZE, 0);
     source.invalid = 200;
@@ -64,7 +82,7 @@ fn kept_tiles_are_taken_up(gpu: &Gpu) {
     let whole = fitted(gpu, &source, Memory::default(), None);
     let folder = tempfile::tempdir().expect("is made");
     let target = folder.path().join("speckle.zarr");
-    let job = fit_job(gpu, &source, &FitSettings::default());
+    let job = fit_job(gpu, &source, &settings(SurfaceMode::Flat));
     let unfinished = Unfinished::begin(&target, &job).expect("begins");
     assert!(!unfinished.is_resumed());
     assert!(whole == fitted(gpu, &source, memory(10, 20), Some(&unfinished)));
@@ -104,7 +122,7 @@ fn kept_tiles_are_taken_up(gpu: &Gpu) {
     assert!(whole != fitted(gpu, &source, memory(7, 15), Some(&unfinished)));
 
     drop(unfinished);
-    let other = fit_job(gpu, &source, &FitSettings { max_iterations: 3, ..FitSettings::default() });
+    let other = fit_job(gpu, &source, &FitSettings { max_iterations: 3, ..settings(SurfaceMode::Flat) });
     match Unfinished::begin(&target, &other) {
         Err(IoError::OtherJob { differing, .. }) => assert_eq!(differing, "source, settings, adapter and version"),
         found => panic!("{found:?}"),

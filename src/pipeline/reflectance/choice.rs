@@ -7,8 +7,6 @@
 //! explain the oblique views best. They are found by pattern search (Hooke, Jeeves 1961) with the same measure, together with the share
 //! of light that the points of a relief throw on each other.
 
-use std::cmp::Ordering;
-
 use super::{
     FittedTile, Model, Stages, lit_samples,
     local::{Framed, FramedTile},
@@ -38,6 +36,8 @@ const SCALE_STEP: f64 = 1.25;
 const LEVEL_STEP: f64 = 0.5;
 const AMBIENT_STEP: f64 = 0.1;
 const HALVINGS: usize = 1;
+/// A step is taken if it leaves at most this part of the cost: less would be rounding, as where a plane is flat.
+const LEAST_GAIN: f64 = 0.999;
 /// Bounds of the scale, the level (one outside the relief is none) and the ambient share.
 const SCALES: [f64; 2] = [0.5, 3.0];
 const MAX_LEVEL: f64 = 3.0;
@@ -149,8 +149,7 @@ impl<'a> Measure<'a> {
                             ..best
                         };
                         let tried = Candidate { left: Some(self.left(&tried)?), ..tried };
-                        // Also at the bounds, where nothing changes.
-                        if cost(&tried).partial_cmp(&cost(&best)) != Some(Ordering::Less) {
+                        if cost(&tried) > LEAST_GAIN * cost(&best) {
                             break;
                         }
                         best = tried;
