@@ -1,13 +1,15 @@
 // One step of Levenberg-Marquardt for each running fit of a Lafortune lobe: accept or reject the candidate, propose the next.
-// Minimises E = sum_k (A (k . p_k)^n - s_k)^2 over A, the unit vector k and nu = ln n (Lafortune et al. 1997; thesis
+// Minimises E = sum_k (A (k . p_k)^n - s_k)^2 over A, the direction k and nu = ln n (Lafortune et al. 1997; thesis
 // section 3.2.2, step 5), with p_k = w_i * w_o by components and s_k the mean specular residual, over the samples that
 // are not masked. One thread a fit.
 //
 // lafortune_sums has the Gram matrix of (m, w p, l, r) with m = (k . p)^n, w = m/(k . p), l = m ln(k . p), r = A m - s;
 // it holds all that the step needs: A is linear, so its best value and the objective there follow in closed form
 // (variable projection: Golub and Pereyra 1973), and the Schur complement of A is the curvature of the rest. r is taken
-// with the last A, so that E is a small correction of sum r^2 and no difference of large numbers.
-// Damping by Nielsen 1999. The gauge |k| = 1 is fixed by curvature along k, exponent bounds by an active set.
+// with the last A, so that E is a small correction of sum r^2 and no difference of large numbers. In frames (lafortune_framed_sums)
+// there is a constant column, too, whose coefficient is linear and eliminated before A.
+// Damping by Nielsen 1999. The scale of k, of which the largest |component| is 1, is fixed by curvature along k, exponent bounds by
+// an active set.
 // Twin: reference::lafortune_fit.
 #import thread
 #import lafortune_state
@@ -37,7 +39,7 @@ struct Params {
 const SIZE: u32 = 64u;
 const MAX_DAMPING: f32 = 1e6;
 const MIN_DAMPING: f32 = 1e-7;
-// A decrease must be more than the rounding of the correction that it rests on.
+// A decrease must be more than the rounding of the corrections that it rests on.
 const ROUNDING: f32 = 2.4e-7;
 
 // The sums of one fit.
@@ -53,21 +55,19 @@ struct Sums {
     diagonal: vec4<f32>,
     mixed: vec4<f32>,
     mixed_nu: vec2<f32>,
-}
-
-// Of the constant column of fits in frames; cc = 0 without one.
-struct Constant {
+    // the constant column's of fits in frames: c^2, 0 without one, c m, c r and c g
     cc: f32,
     cm: f32,
     cr: f32,
     cg: vec4<f32>,
+    // what the best constant takes off r^2
+    explained: f32,
 }
 
 // The sums of the fit listed at `index`, over all slices.
 fn sums_of(index: u32) -> Sums {
     let i = index % FITS;
     var sums = Sums();
-    var constant = Constant();
     for (var slice = 0u; slice < params.slices; slice++) {
         let at = slice * params.quads + index / FITS;
         sums.mm += grams[at].mm[i];
@@ -78,34 +78,35 @@ fn sums_of(index: u32) -> Sums {
         sums.diagonal += vec4(grams[at].xx[i], grams[at].yy[i], grams[at].zz[i], grams[at].ll[i]);
         sums.mixed += vec4(grams[at].xy[i], grams[at].xz[i], grams[at].yz[i], grams[at].xl[i]);
         sums.mixed_nu += vec2(grams[at].yl[i], grams[at].zl[i]);
-        constant.cc += grams[at].cc[i];
-        constant.cm += grams[at].cm[i];
-        constant.cr += grams[at].cr[i];
-        constant.cg += vec4(grams[at].cx[i], grams[at].cy[i], grams[at].cz[i], grams[at].cl[i]);
+        sums.cc += grams[at].cc[i];
+        sums.cm += grams[at].cm[i];
+        sums.cr += grams[at].cr[i];
+        sums.cg += vec4(grams[at].cx[i], grams[at].cy[i], grams[at].cz[i], grams[at].cl[i]);
     }
-    if constant.cc > 0.0 {
-        return without_constant(sums, constant);
+    if sums.cc > 0.0 {
+        return without_constant(sums);
     }
     return sums;
 }
 
 // Takes what the constant column explains out of all others, as the best constant would (Frisch, Waugh 1933).
-fn without_constant(sums: Sums, constant: Constant) -> Sums {
+fn without_constant(sums: Sums) -> Sums {
     var rest = sums;
-    let inverse = 1.0 / constant.cc;
-    let cg = constant.cg * inverse;
-    rest.mm -= constant.cm * constant.cm * inverse;
+    let inverse = 1.0 / sums.cc;
+    let cg = sums.cg * inverse;
+    rest.mm -= sums.cm * sums.cm * inverse;
     if rest.mm < 1e-5 * sums.mm {
         // Nothing but a constant, to rounding.
         rest.mm = 0.0;
     }
-    rest.mr -= constant.cm * constant.cr * inverse;
-    rest.rr -= constant.cr * constant.cr * inverse;
-    rest.mg -= constant.cm * cg;
-    rest.rg -= constant.cr * cg;
-    rest.diagonal -= constant.cg * cg;
-    rest.mixed -= constant.cg.xxyx * cg.yzzw;
-    rest.mixed_nu -= constant.cg.yz * cg.w;
+    rest.mr -= sums.cm * sums.cr * inverse;
+    rest.explained = sums.cr * sums.cr * inverse;
+    rest.rr -= rest.explained;
+    rest.mg -= sums.cm * cg;
+    rest.rg -= sums.cr * cg;
+    rest.diagonal -= sums.cg * cg;
+    rest.mixed -= sums.cg.xxyx * cg.yzzw;
+    rest.mixed_nu -= sums.cg.yz * cg.w;
     return rest;
 }
 
@@ -144,6 +145,9 @@ fn accept(state: ptr<function, FitState>, sums: Sums, amplitude: f32, objective:
     (*state).mixed = scale * (scale * (sums.mixed - sums.mg.xxyx * (sums.mg.yzzw * inverse)));
     (*state).mixed_nu = scale * (scale * (sums.mixed_nu - sums.mg.yz * (sums.mg.w * inverse)));
     (*state).gradient = scale * (sums.rg + (amplitude - (*state).amplitude) * sums.mg);
+    if sums.cc > 0.0 {
+        (*state).constant -= (sums.cr + (amplitude - (*state).amplitude) * sums.cm) / sums.cc;
+    }
     (*state).amplitude = amplitude;
     (*state).objective = objective;
 }
@@ -151,7 +155,7 @@ fn accept(state: ptr<function, FitState>, sums: Sums, amplitude: f32, objective:
 fn propose(state: ptr<function, FitState>) {
     let point = (*state).point;
     let k = point.xyz;
-    // Curvature along k, in which the objective is constant, holds the step to the sphere's tangent.
+    // Curvature along k, in which the objective is constant, holds the step to what turns k.
     let gauge = (*state).diagonal.x + (*state).diagonal.y + (*state).diagonal.z;
     var diagonal = (*state).diagonal + vec4(gauge * k * k, 0.0);
     var mixed = (*state).mixed + vec4(gauge * k.xxy * k.yzz, 0.0);
@@ -207,7 +211,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let decrease = state.objective - objective;
     if first {
         accept(&state, sums, amplitude, objective);
-    } else if is_lobe && decrease > ROUNDING * correction * sums.mr {
+    } else if is_lobe && decrease > ROUNDING * (correction * sums.mr + sums.explained) {
         let gain = decrease / max(state.foreseen, 1e-30);
         let bend = 2.0 * gain - 1.0;
         state.damping = max(state.damping * max(1.0 / 3.0, 1.0 - bend * bend * bend), MIN_DAMPING);

@@ -82,7 +82,7 @@ fn add_sample(gram: ptr<function, Gram>, k: Candidates, frames: Frames, light: v
     let y = w * py;
     let z = w * pz;
     let l = m * log_base * LN_2;
-    let r = k.amplitude * m - s;
+    let r = k.amplitude * m + k.constant * c - s;
     add_columns(gram, m, x, y, z, l, r);
     (*gram).cc += c * c;
     (*gram).cm += c * m;
@@ -121,6 +121,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         k.z[i] = candidate.z;
         k.exponent[i] = candidate.w;
         k.amplitude[i] = states[fit].amplitude;
+        k.constant[i] = states[fit].constant;
     }
     var gram = Gram();
     var frames: Frames;

@@ -49,6 +49,8 @@ struct Candidates {
     z: vec4<f32>,
     exponent: vec4<f32>,
     amplitude: vec4<f32>,
+    // of the constant column
+    constant: vec4<f32>,
 }
 
 fn add_columns(gram: ptr<function, Gram>, m: vec4<f32>, x: vec4<f32>, y: vec4<f32>, z: vec4<f32>, l: vec4<f32>, r: vec4<f32>) {

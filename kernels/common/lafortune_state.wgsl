@@ -1,4 +1,4 @@
-// State of one fit between passes. The lobe is A (k . p)^n with |k| = 1: the amplitude A, which is linear, is eliminated
+// State of one fit between passes. The lobe is A (k . p)^n with the largest |component| of k 1, so that no power underflows where the lobe peaks: the amplitude A, which is linear, is eliminated
 // at every step, and nu = ln n keeps the exponent positive.
 struct FitState {
     // (k, n) of the best point so far
@@ -27,6 +27,9 @@ struct FitState {
     status: u32,
     // steps tried, over all descents
     iterations: u32,
+    // coefficient of the constant column at `point`, of fits in frames
+    constant: f32,
+    _pad: u32,
 }
 
 // What a texel's fit has to go on.

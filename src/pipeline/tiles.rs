@@ -39,8 +39,10 @@ impl Job<'_> {
     /// Texels of a tile with `samples` samples.
     fn tile_texels(&self, samples: usize) -> usize {
         let halves = 3 * samples.next_multiple_of(OCTET) * size_of::<f16>();
-        let array = halves.max(LafortuneFit::STATE_BYTES) as u64;
-        let all = (COPIES * halves + LafortuneFit::STATE_BYTES) as u64;
+        // Normal and place of the point that each view sees.
+        let seen = self.source.btf().views().len() * size_of::<[f32; 4]>();
+        let array = halves.max(LafortuneFit::STATE_BYTES).max(seen) as u64;
+        let all = (COPIES * halves + LafortuneFit::STATE_BYTES + 2 * seen) as u64;
         let texels = (self.gpu.max_array_bytes() / array).min(self.memory.adapter / all);
         usize::try_from(texels).unwrap_or(usize::MAX).clamp(1, MAX_TILE_TEXELS)
     }
@@ -64,19 +66,42 @@ impl Job<'_> {
 
     /// A tile of `patches`, one after the other, with the given samples, and the places of its texels (column, row).
     pub(super) fn sample(&self, samples: &[usize], patches: &[Block]) -> Result<(Gathered, Vec<[u32; 2]>), PipelineError> {
-        let Self { gpu, source, progress, .. } = *self;
+        let Self { gpu, source, memory, progress, .. } = *self;
         let texels = patches.iter().map(Block::texels).sum();
         let mut halves = vec![f16::ZERO; 3 * samples.len() * texels];
-        let mut first = 0;
-        for patch in patches {
-            let mut part = vec![f16::ZERO; 3 * samples.len() * patch.texels()];
-            let stage = progress.stage("read", patch.texels(), samples.len());
-            source.read(samples, *patch, &mut part, &|_| {})?;
-            drop(stage);
-            for (all, part) in halves.chunks_exact_mut(texels).zip(part.chunks_exact(patch.texels())) {
-                all[first..first + part.len()].copy_from_slice(part);
+        // The first texel of each patch in the tile.
+        let firsts = patches.iter().scan(0, |next, patch| Some(std::mem::replace(next, *next + patch.texels())));
+        let patches: Vec<(usize, Block)> = firsts.zip(patches.iter().copied()).collect();
+        // Pictures cost as much for a patch as for all: they are read once, so many at a time as the host holds.
+        let parts: Vec<(Block, &[(usize, Block)])> = match source.chunk() {
+            None => patches
+                .iter()
+                .map(|(_, patch)| *patch)
+                .reduce(|a, b| a.hull(&b))
+                .map(|hull| (hull, patches.as_slice()))
+                .into_iter()
+                .collect(),
+            Some(_) => patches.iter().map(|patch| (patch.1, std::slice::from_ref(patch))).collect(),
+        };
+        progress.expect(parts.iter().map(|(block, _)| block.texels() * samples.len()).sum());
+        for (block, patches) in parts {
+            let values = 3 * block.texels();
+            let at_once = (memory.host / (values * size_of::<f16>())).max(1);
+            for (batch, samples) in samples.chunks(at_once).enumerate() {
+                let mut read = vec![f16::ZERO; values * samples.len()];
+                let stage = progress.stage("read", block.texels(), samples.len());
+                source.read(samples, block, &mut read, &|samples| progress.advance(samples * block.texels()))?;
+                drop(stage);
+                let planes = halves.chunks_exact_mut(texels).skip(3 * batch * at_once).zip(read.chunks_exact(block.texels()));
+                for (tile, plane) in planes {
+                    for &(first, patch) in patches {
+                        for (texel, value) in tile[first..first + patch.texels()].iter_mut().enumerate() {
+                            let (column, row) = (patch.column + texel % patch.width, patch.row + texel / patch.width);
+                            *value = plane[(row - block.row) * block.width + column - block.column];
+                        }
+                    }
+                }
             }
-            first += patch.texels();
         }
         let mut words = vec![0_u32; halves.len().div_ceil(2)];
         bytemuck::cast_slice_mut(&mut words)[..halves.len()].copy_from_slice(&halves);
@@ -85,7 +110,7 @@ impl Job<'_> {
             let halves = gpu.upload("halves", &words)?;
             gather.record(recorder, &halves, samples.len(), texels)
         })?;
-        Ok((gathered, patches.iter().flat_map(|patch| places(*patch, 0..patch.texels())).collect()))
+        Ok((gathered, patches.iter().flat_map(|(_, patch)| places(*patch, 0..patch.texels())).collect()))
     }
 
     /// What `work` finds for the texels of each tile of the source, `[texel of the plane]`. `work` is given a tile with the given samples

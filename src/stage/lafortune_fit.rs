@@ -3,13 +3,16 @@
 //! `lafortune_result`, twin [`reference::lafortune_fit`](crate::reference::lafortune_fit).
 //!
 //! The thesis fits (C_x, C_y, C_z, n) as they stand. In these the amplitude |C|^n and the exponent are nearly dependent and
-//! single precision stalls in the valley between them; as A·(k·p)^n with a unit vector k the same family of lobes has its
+//! single precision stalls in the valley between them; as A·(k·p)^n with a direction k the same family of lobes has its
 //! linear part apart, and the rest is well conditioned. The result is given as C and n again.
 //!
 //! The objective has more than one minimum: a highlight's, and others where the lobe traces the edges of shadows. So each texel
 //! descends a little way from each of [`STARTS`] over a part of its samples, the better ones of these go on over all, and the best
 //! of those goes on until it settles. List, sums and step are passes of their own: the list keeps the threads busy as fits
 //! end, `lafortune_sums` is nearly all of the work and spreads over samples as well as fits, `lafortune_fit` is the step itself.
+//!
+//! [`LafortuneFit::record_framed`] fits lobes in the frames of seen normals to radiance, with `lafortune_framed_energy` and
+//! `lafortune_framed_sums` in place of the kernels that see samples, twin [`reference::lafortune_framed`](crate::reference::lafortune_framed).
 //!
 //! Masked samples take no part: the objective is the mean over a texel's valid samples, and a texel with fewer than
 //! [`MIN_LOBE_SAMPLES`] gets no lobe.
@@ -44,7 +47,8 @@ gpu_struct! {
         energy: f32,
         status: u32,
         iterations: u32,
-        _pad: [u32; 2],
+        constant: f32,
+        _pad: u32,
     }
 }
 gpu_struct! {

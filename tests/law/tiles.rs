@@ -58,12 +58,13 @@ fn any_tiles_give_the_same_bits(gpu: &Gpu) {
 
 /// What is chosen by measure, too, and each texel's points in a relief of the whole plane.
 fn any_tiles_give_the_same_bits_of_a_local_surface(gpu: &Gpu) {
-    let source = Speckle::new(SIZE, 0);
-    let local = |memory| fitted_as(gpu, &source, SurfaceMode::Local, memory, None);
-    let whole = local(Memory::default());
-    for (tile, block) in [(1, 2), (10, 20)] {
-        assert!(whole == local(memory(tile, block)), "tiles of {tile} texels, blocks of {block}");
-    }
+    // Larger than the texels that are measured, so that these are spread.
+    let mut source = Speckle::new([17, 14], 0);
+    let local = |source: &Speckle, memory| fitted_as(gpu, source, SurfaceMode::Local, memory, None);
+    let whole = local(&source, Memory::default());
+    assert!(whole == local(&source, memory(30, 20)), "pictures, a few at a time");
+    source.chunk = Some([4, 4]);
+    assert!(whole == local(&source, memory(100, 64)), "chunks");
 }
 
 fn a_dataset_gives_the_bits_of_its_source(gpu: &Gpu) {

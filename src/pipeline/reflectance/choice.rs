@@ -24,8 +24,8 @@ use crate::{
 
 /// Texels are measured in this many patches along each edge of the plane, each of so many texels along an edge: enough that the best
 /// candidate is the best of the whole plane, and few of a large plane's chunks are read.
-const PATCHES: usize = 6;
-const PATCH: usize = 2;
+const PATCHES: usize = 4;
+const PATCH: usize = 3;
 
 /// Samples of a texel that are measured at most: enough to tell candidates that differ by a hundredth, since all of them see the same.
 const MAX_SAMPLES: usize = 2048;
