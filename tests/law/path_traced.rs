@@ -94,9 +94,9 @@ fn reconstructions_are_near_the_pictures(gpu: &Gpu, data: &Path) {
         let quality = compare(gpu, source.as_ref(), &material, &CompareSettings::default(), Memory::default(), &progress).expect("compares").overall;
         hold(&format!("{set}: relative RMS"), quality.relative_rms.expect("is not black"), local);
         hold(&format!("{set}: bias"), quality.bias.expect("is not black").abs(), 0.02);
-        // What was measured on some texels is so of all.
+        // What was measured in sixteen places is so of all, but for the places.
         let foreseen = material.choice.chosen().left.expect("was measured");
-        hold(&format!("{set}: relative RMS foreseen"), (foreseen.relative_rms / quality.relative_rms.expect("is not black") - 1.0).abs(), 0.1);
+        hold(&format!("{set}: relative RMS foreseen"), (foreseen.relative_rms / quality.relative_rms.expect("is not black") - 1.0).abs(), 0.2);
         let found: Vec<f64> = material.height.values().iter().copied().map(f64::from).collect();
         let truth: Vec<f64> = npy::read(&data.join(height)).into_iter().map(|z| z * source.btf().size()[0] as f64).collect();
         let deviation = (covariance(&found, &found) / covariance(&truth, &truth)).sqrt();

@@ -149,7 +149,9 @@ impl<'a> Measure<'a> {
                             ..best
                         };
                         let tried = Candidate { left: Some(self.left(&tried)?), ..tried };
-                        if cost(&tried) > LEAST_GAIN * cost(&best) {
+                        // Nothing is better than what costs nothing.
+                        let is_better = cost(&tried) < LEAST_GAIN * cost(&best);
+                        if !is_better {
                             break;
                         }
                         best = tried;
