@@ -105,6 +105,7 @@ impl Fit {
         };
         output::check_material(&self.output)?;
         let source = io::open_with(&self.source, &self.reading.options())?;
+        pipeline::check_fit(source.as_ref(), &settings)?;
         let session = session.open()?;
         let unfinished = Unfinished::begin(&self.output, &pipeline::fit_job(&session.gpu, source.as_ref(), &settings))?;
         let mut surface = String::new();

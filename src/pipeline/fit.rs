@@ -28,11 +28,7 @@ pub fn fit(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Pr
 pub fn fit_within(
     gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, unfinished: Option<&Unfinished>, progress: &Progress,
 ) -> Result<Material, PipelineError> {
-    settings.checked()?;
-    let [width, height] = source.btf().size();
-    if let Some([column, row]) = settings.representative.filter(|&[column, row]| column >= width || row >= height) {
-        return Err(PipelineError::NoSuchTexel { column, row, width, height });
-    }
+    check_fit(source, settings)?;
     let job = Job { gpu, source, memory, unfinished, progress };
     let geometry = geometry::recover(&job, settings)?;
     let stages = reflectance::Stages::new(gpu)?;
@@ -51,6 +47,19 @@ pub fn fit_within(
         provenance: provenance(gpu, source, settings),
     };
     Ok(material.checked()?)
+}
+
+/// Checks that `settings` are in range and fit the source: what [`fit_within`] asks first, for whoever begins a job before it.
+///
+/// # Errors
+/// [`PipelineError`] if a setting is out of range, or the representative texel outside the plane.
+pub fn check_fit(source: &dyn Source, settings: &FitSettings) -> Result<(), PipelineError> {
+    settings.checked()?;
+    let [width, height] = source.btf().size();
+    match settings.representative {
+        Some([column, row]) if column >= width || row >= height => Err(PipelineError::NoSuchTexel { column, row, width, height }),
+        _ => Ok(()),
+    }
 }
 
 /// All that the result of a fit depends on, for [`Unfinished::begin`].

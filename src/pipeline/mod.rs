@@ -21,7 +21,7 @@ pub use compare::{
 pub use demo::{REPORT, demo};
 pub use error::PipelineError;
 pub use export::export_tree;
-pub use fit::{fit, fit_job, fit_within};
+pub use fit::{check_fit, fit, fit_job, fit_within};
 pub use import::{Imported, import};
 pub use memory::Memory;
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
