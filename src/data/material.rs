@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Direction, Encoding, Map, ShapeError};
+use super::{Direction, Encoding, Lpca, Map, ShapeError};
 use crate::model::{FitSettings, Frame, SurfaceMode};
 
 /// One lobe of every texel.
@@ -238,6 +238,8 @@ pub struct Material {
     pub albedo: Map<f32>,
     /// Reflectance.
     pub svbrdf: Svbrdf,
+    /// The original's full look, unless it was left out.
+    pub lpca: Option<Lpca>,
     /// How the fit went.
     pub fit: Fit,
     /// Which way of taking the surface was chosen.
@@ -276,6 +278,7 @@ impl Material {
                     })
                     .collect(),
             },
+            lpca: self.lpca.as_ref().map(|lpca| lpca.repeated(columns, rows)),
             fit: Fit {
                 objective_without_lobe: self.fit.objective_without_lobe.repeated(columns, rows),
                 objective: self.fit.objective.repeated(columns, rows),
@@ -294,6 +297,9 @@ impl Material {
     /// [`ShapeError`] for the first that does not.
     pub fn checked(self) -> Result<Self, ShapeError> {
         let [width, height] = self.size();
+        if let Some(lpca) = &self.lpca {
+            lpca.check([width, height])?;
+        }
         let shapes = [
             (self.normal.width(), self.normal.height()),
             (self.normal_measured.width(), self.normal_measured.height()),

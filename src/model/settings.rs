@@ -1,6 +1,6 @@
 //! Settings of the recovery, read by stages and twins alike.
 
-use super::{Boundary, MAX_LOBES};
+use super::{Boundary, LpcaSettings, MAX_LOBES};
 
 /// How ρ_s is found once the lobe is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -80,6 +80,8 @@ pub struct FitSettings {
     /// Lobes below this carry no ratio: such samples are left out of the mean, and a texel whose lobes' squares sum to less than
     /// its square has no specular part.
     pub min_lobe: f64,
+    /// Local PCA of the original; none: it is left out.
+    pub lpca: Option<LpcaSettings>,
 }
 
 impl Default for FitSettings {
@@ -103,6 +105,7 @@ impl Default for FitSettings {
             exponents: [0.5, 1000.0],
             specular_scale: SpecularScale::LeastSquares,
             min_lobe: 0.01,
+            lpca: None,
         }
     }
 }
@@ -151,7 +154,7 @@ impl FitSettings {
         ];
         match checks.into_iter().find(|(_, _, holds, _)| !holds) {
             Some((setting, found, _, expected)) => Err(SettingsError { setting, found, expected }),
-            None => Ok(()),
+            None => self.lpca.map_or(Ok(()), |lpca| lpca.checked()),
         }
     }
 }

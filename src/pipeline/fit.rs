@@ -42,6 +42,7 @@ pub fn fit_within(
         normal_measured: geometry.normal_measured,
         albedo: geometry.albedo,
         svbrdf,
+        lpca: None,
         fit,
         choice,
         provenance: provenance(gpu, source, settings),

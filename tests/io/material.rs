@@ -46,6 +46,7 @@ fn sample([width, height]: [usize; 2], seed: u64) -> Material {
                 })
                 .collect(),
         },
+        lpca: None,
         fit: Fit {
             objective_without_lobe: Map::from_fn(width, height, |_, _| value()),
             objective: Map::from_fn(width, height, |_, _| f32::NAN),

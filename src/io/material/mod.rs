@@ -123,6 +123,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         normal_measured: reader.vectors(&format::NORMAL_MEASURED)?,
         albedo: reader.scalars(&format::ALBEDO)?,
         svbrdf: Svbrdf { frame, ambient, diffuse: reader.vectors(&format::DIFFUSE)?, lobes },
+        lpca: None,
         fit: Fit {
             objective_without_lobe: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,
