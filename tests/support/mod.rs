@@ -4,6 +4,7 @@ pub mod files;
 pub mod held;
 pub mod known;
 pub mod local;
+pub mod material;
 pub mod npy;
 pub mod probe;
 pub mod random;
