@@ -23,6 +23,8 @@ sources! {
     CROP_REAL = "kernels" "crop_real";
     /// Samples in shadow masked.
     DARK_SAMPLES = "kernels" "dark_samples";
+    /// Interpolation between measured directions.
+    DIRECTION_MESH = "kernels/common" "direction_mesh";
     /// One pass of a Fourier transform.
     FFT = "kernels" "fft";
     /// Kubelka-Munk films.

@@ -4,6 +4,7 @@
 mod block;
 mod btf;
 mod direction;
+mod direction_mesh;
 mod encoding;
 mod grid;
 mod lpca;
@@ -15,6 +16,7 @@ mod samples;
 pub use block::Block;
 pub use btf::{Btf, BtfError, Pair};
 pub use direction::Direction;
+pub use direction_mesh::{Corner, DirectionMesh};
 pub use encoding::{Encoding, RowOrder, Transfer, radiance_half};
 pub use grid::{Grid, GridError};
 pub use lpca::{Learned, Lpca, LpcaCandidate};

@@ -2,6 +2,7 @@
 
 mod brdf_values;
 mod dark_samples;
+mod direction_mesh;
 mod error;
 mod fft;
 mod flatness;
@@ -32,6 +33,7 @@ mod tile;
 
 pub use brdf_values::BrdfValues;
 pub use dark_samples::DarkSamples;
+pub use direction_mesh::pack_directions;
 pub use error::StageError;
 pub use fft::Fft;
 pub use flatness::Flatness;

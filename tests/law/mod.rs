@@ -5,6 +5,7 @@ crate::suites! {
     color,
     compare,
     dark_samples,
+    direction_mesh,
     fft,
     flatness,
     frankot_chellappa,

@@ -3,6 +3,7 @@
 crate::suites! {
     brdf_values,
     dark_samples,
+    direction_mesh,
     fft,
     flatness,
     frankot_chellappa,

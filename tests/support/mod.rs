@@ -1,5 +1,6 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
+pub mod directions;
 pub mod files;
 pub mod held;
 pub mod known;
