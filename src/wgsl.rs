@@ -71,6 +71,10 @@ sources! {
     LOCAL_SAMPLES = "kernels/common" "local_samples";
     /// What is left for the next lobe.
     LOBE_RESIDUAL = "kernels" "lobe_residual";
+    /// A BTF compressed by local PCA.
+    LPCA = "kernels/common" "lpca";
+    /// Its terms under one view and light.
+    LPCA_BLEND = "kernels" "lpca_blend";
     /// Whether a sample is no radiance.
     MASKED = "kernels/common" "masked";
     /// Reflection at a paint's surface.
@@ -103,6 +107,8 @@ sources! {
     RADIANCE_ERROR = "kernels" "radiance_error";
     /// What the source's camera would have recorded.
     RECONSTRUCT = "kernels" "reconstruct";
+    /// The same from a compressed BTF.
+    RECONSTRUCT_LPCA = "kernels" "reconstruct_lpca";
     /// Rays against a height field.
     RELIEF = "kernels/common" "relief";
     /// Radiance that leaves a place of the base plane.
@@ -125,6 +131,8 @@ sources! {
     SURFACE = "kernels/common" "surface";
     /// Radiance of a material that is fully known.
     SYNTH = "kernels" "synth";
+    /// Interpolation between texels.
+    TEXEL_FILTER = "kernels/common" "texel_filter";
     /// Index of a thread in a folded grid.
     THREAD = "kernels/common" "thread";
 }

@@ -10,6 +10,7 @@ mod grid;
 mod lpca;
 mod map;
 mod material;
+mod nearest_samples;
 mod plane_view;
 mod samples;
 
@@ -22,6 +23,7 @@ pub use grid::{Grid, GridError};
 pub use lpca::{Learned, Lpca, LpcaCandidate};
 pub use map::{Map, ShapeError};
 pub use material::{Candidate, Choice, Fit, FitStatus, Left, Lobe, Material, Provenance, Svbrdf};
+pub use nearest_samples::nearest_samples;
 pub use plane_view::PlaneView;
 pub use samples::{OCTET, Samples};
 

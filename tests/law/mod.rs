@@ -30,6 +30,7 @@ crate::suites! {
     plane,
     radiance_error,
     reconstruct,
+    reconstruct_lpca,
     seen_surface,
     specular_residual,
     specular_scale,
