@@ -3,6 +3,7 @@
 crate::suites! {
     brdf_values,
     dark_samples,
+    direction_mesh,
     fft,
     flatness,
     frankot_chellappa,
@@ -22,6 +23,7 @@ crate::suites! {
     plane,
     radiance_error,
     reconstruct,
+    reconstruct_lpca,
     seen_surface,
     specular_residual,
     specular_scale,

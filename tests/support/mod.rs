@@ -1,10 +1,12 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
+pub mod directions;
 pub mod files;
 pub mod held;
 pub mod known;
 pub mod local;
 pub mod material;
+pub mod lpca;
 pub mod npy;
 pub mod probe;
 pub mod random;
