@@ -23,6 +23,8 @@ sources! {
     CROP_REAL = "kernels" "crop_real";
     /// Samples in shadow masked.
     DARK_SAMPLES = "kernels" "dark_samples";
+    /// Samples about a centre.
+    DEVIATION = "kernels/common" "deviation";
     /// One pass of a Fourier transform.
     FFT = "kernels" "fft";
     /// Kubelka-Munk films.
@@ -67,6 +69,16 @@ sources! {
     LINEAR_REFIT = "kernels" "linear_refit";
     /// Samples whose reflectance stands in the frames of normals.
     LOCAL_SAMPLES = "kernels/common" "local_samples";
+    /// Texels to the nearest cluster of a local PCA.
+    LPCA_ASSIGN = "kernels" "lpca_assign";
+    /// Sums that tell mean and covariance of a local PCA's clusters.
+    LPCA_COVARIANCE = "kernels" "lpca_covariance";
+    /// Sums of samples by the weights of a local PCA.
+    LPCA_LIFT = "kernels" "lpca_lift";
+    /// Coordinates of texels in a basis.
+    LPCA_PROJECT = "kernels" "lpca_project";
+    /// Final weights of a local PCA.
+    LPCA_WEIGHTS = "kernels" "lpca_weights";
     /// What is left for the next lobe.
     LOBE_RESIDUAL = "kernels" "lobe_residual";
     /// Whether a sample is no radiance.

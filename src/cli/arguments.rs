@@ -57,6 +57,11 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text).ok().filter(|value| *value > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
+/// A number above 0 and below 1.
+pub fn part(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|value| *value > 0.0 && *value < 1.0).ok_or_else(|| "expected a number above 0 and below 1".to_owned())
+}
+
 /// A number from 0 to 1.
 pub fn fraction(text: &str) -> Result<f64, String> {
     number(text).ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(|| "expected a number from 0 to 1".to_owned())

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::{
     CliError, arguments,
+    lpca::LpcaArguments,
     memory::{AdapterMemoryArguments, MemoryArguments},
     output,
     reading::ReadingArguments,
@@ -18,7 +19,7 @@ use crate::{
     pipeline,
 };
 
-/// Recover a material from a BTF: height, normals and per-texel reflectance.
+/// Recover a material from a BTF: height, normals and per-texel reflectance, and a local PCA of the original.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -66,7 +67,7 @@ pub struct Fit {
     diffuse_quantile: f64,
     /// Levenberg-Marquardt steps at most
     #[arg(long, value_name = "N", default_value_t = FitSettings::default().max_iterations, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    iterations: u32,
+    steps: u32,
     /// Bounds of the lobe's exponent
     #[arg(long, value_name = "MIN,MAX", default_value = "0.5,1000", allow_hyphen_values = true, value_parser = arguments::exponents)]
     exponents: [f64; 2],
@@ -77,6 +78,8 @@ pub struct Fit {
     #[arg(long, value_name = "VALUE", default_value_t = FitSettings::default().min_lobe, allow_negative_numbers = true, value_parser = arguments::positive)]
     min_lobe: f64,
     #[command(flatten)]
+    lpca: LpcaArguments,
+    #[command(flatten, next_help_heading = "Options")]
     memory: MemoryArguments,
     #[command(flatten)]
     adapter_memory: AdapterMemoryArguments,
@@ -96,7 +99,8 @@ impl Fit {
             max_slope: self.max_slope,
             min_cos_light: self.min_cos_light,
             diffuse_quantile: self.diffuse_quantile,
-            max_iterations: self.iterations,
+            max_iterations: self.steps,
+            lpca: self.lpca.settings(),
             specular_scale: self.specular_scale,
             min_lobe: self.min_lobe,
             detilt: !self.keep_tilt,
@@ -108,16 +112,19 @@ impl Fit {
         pipeline::check_fit(source.as_ref(), &settings)?;
         let session = session.open()?;
         let unfinished = Unfinished::begin(&self.output, &pipeline::fit_job(&session.gpu, source.as_ref(), &settings))?;
-        let mut surface = String::new();
+        let mut found = String::new();
         if !unfinished.is_complete() {
             let memory = self.memory.memory(Some(self.adapter_memory));
             let material = pipeline::fit_within(&session.gpu, source.as_ref(), &settings, memory, Some(&unfinished), &session.progress)?;
             io::material::save(&self.output, &material)?;
-            surface = format!("\nsurface: {}", material.choice);
+            found = format!("\nsurface: {}", material.choice);
+            if let Some(lpca) = &material.lpca {
+                found += &format!("\nlocal PCA: {lpca}");
+            }
         }
         let resumed = if unfinished.is_resumed() { " (an earlier run had begun it)" } else { "" };
         unfinished.commit()?;
         let times = session.finish()?;
-        say(&format!("{times}{surface}\nwrote {}{resumed}", self.output.display()))
+        say(&format!("{times}{found}\nwrote {}{resumed}", self.output.display()))
     }
 }

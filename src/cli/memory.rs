@@ -38,6 +38,11 @@ impl MemoryArguments {
     }
 }
 
+/// A size of 1 byte or more.
+pub fn size(text: &str) -> Result<ByteSize, String> {
+    text.parse().ok().filter(|bytes: &ByteSize| bytes.as_u64() > 0).ok_or_else(|| "expected a size, such as 8MiB".to_owned())
+}
+
 fn bytes(text: &str) -> Result<ByteSize, String> {
     let expected = || format!("expected an amount of memory of at least {LEAST}, such as 2GiB or 256MiB");
     text.parse().ok().filter(|bytes| *bytes >= LEAST).ok_or_else(expected)

@@ -12,6 +12,7 @@ mod error;
 mod fit;
 mod import;
 mod info;
+mod lpca;
 mod memory;
 mod output;
 mod reading;

@@ -1,5 +1,7 @@
 //! The original's full look, compressed: a local PCA of its texels.
 
+use std::fmt;
+
 use half::f16;
 
 use super::{Map, Pair, ShapeError};
@@ -56,6 +58,23 @@ pub struct LpcaCandidate {
     pub bytes: u64,
     /// Estimated relative RMS error.
     pub error: f64,
+}
+
+/// In a line: how large it is, and what it leaves.
+impl fmt::Display for Lpca {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { clusters, components, learned: Learned { relative_rms, rank, left_out, errors, .. }, .. } = self;
+        let (bytes, source) = (self.bytes(), self.source_bytes());
+        #[expect(clippy::cast_precision_loss, reason = "bytes, to three digits")]
+        let (megabytes, ratio) = (bytes as f64 / 1e6, source as f64 / bytes as f64);
+        write!(
+            out,
+            "{clusters} clusters of {components} components in a basis of {rank} vectors, which leaves out {:.2} % of the variance; \
+             {} assignments; relative RMS error {relative_rms:.4}; {megabytes:.2} MB, 1/{ratio:.0} of the samples",
+            100.0 * left_out,
+            errors.len()
+        )
+    }
 }
 
 impl Lpca {

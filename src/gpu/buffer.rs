@@ -1,6 +1,6 @@
 //! Typed buffers in adapter memory.
 
-use std::{marker::PhantomData, sync::mpsc};
+use std::{marker::PhantomData, ops::Range, sync::mpsc};
 
 use pollster::block_on;
 
@@ -34,13 +34,27 @@ impl<T: GpuValue> Buffer<T> {
     /// # Errors
     /// [`GpuError::Lost`] if the device stopped, or [`GpuError::OutOfMemory`].
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<T>, GpuError> {
-        let bytes = self.raw.size();
-        let staging = gpu.allocate("read back", bytes, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ, false)?;
+        self.read_range(gpu, 0..self.len)
+    }
+
+    /// As [`Self::read`], of a part of the values; their bytes begin at a multiple of 4.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] if the device stopped, or [`GpuError::OutOfMemory`].
+    ///
+    /// # Panics
+    /// If the buffer does not hold all of them: the caller's bug.
+    pub fn read_range(&self, gpu: &Gpu, range: Range<usize>) -> Result<Vec<T>, GpuError> {
+        assert!(range.start <= range.end && range.end <= self.len, "{}: {range:?} of {} values", self.label, self.len);
+        let (first, bytes) = ((range.start * size_of::<T>()) as u64, range.len() * size_of::<T>());
+        // Whole words are copied; the buffer has no fewer.
+        let words = (bytes as u64).next_multiple_of(4);
+        let staging = gpu.allocate("read back", words, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ, false)?;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(&self.raw, 0, &staging, 0, bytes);
+        encoder.copy_buffer_to_buffer(&self.raw, first, &staging, 0, words);
         gpu.queue.submit([encoder.finish()]);
         let mapped = map(gpu, &staging)?;
-        Ok(bytemuck::pod_collect_to_vec(&mapped[..self.len * size_of::<T>()]))
+        Ok(bytemuck::pod_collect_to_vec(&mapped[..bytes]))
     }
 
     /// Overwrites the first `values.len()` values.

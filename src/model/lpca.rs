@@ -46,7 +46,8 @@ pub struct LpcaSettings {
     pub components: u32,
     /// What chooses clusters and components in the place of the two numbers.
     pub target: Option<LpcaTarget>,
-    /// Vectors of the global basis, at most [`MAX_RANK`]; none: as many as leave out [`LEFT_OUT`](Self::LEFT_OUT) of the energy.
+    /// Vectors of the global basis, at most [`MAX_RANK`]; none: as many as leave out [`LEFT_OUT`](Self::LEFT_OUT) of the variance, and
+    /// at most [`auto_rank`](Self::auto_rank).
     pub rank: Option<u32>,
     /// Alternations of assignment and PCA at most.
     pub iterations: u32,
@@ -73,8 +74,11 @@ impl LpcaSettings {
     /// path-traced weave and blocks.
     pub const LEFT_OUT: f64 = 0.01;
 
-    /// Vectors that the basis has at most, where the rank is not set.
-    pub const AUTO_RANK: u32 = 128;
+    /// Vectors that the basis has at most, where the rank is not set: eight for each eigenvector of a cluster, and 64 or more.
+    #[must_use]
+    pub fn auto_rank(&self) -> u32 {
+        (8 * self.components).clamp(64, MAX_RANK)
+    }
 
     /// An alternation that lowers the error by less than this, relatively, is the last.
     pub const SETTLED: f64 = 1e-4;

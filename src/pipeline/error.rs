@@ -74,6 +74,33 @@ pub enum PipelineError {
         /// Rows there are.
         height: usize,
     },
+    /// A local PCA whose terms no renderer on this adapter could bind.
+    #[error(
+        "a local PCA of {samples} samples with {clusters} clusters and {components} components has terms of {bytes} bytes, but {adapter} binds no more \
+         than {limit}; take fewer --clusters or --components"
+    )]
+    LpcaTooLarge {
+        /// Clusters asked for.
+        clusters: usize,
+        /// Components asked for.
+        components: usize,
+        /// Samples of the source.
+        samples: usize,
+        /// Bytes of the terms.
+        bytes: u64,
+        /// The adapter.
+        adapter: String,
+        /// Bytes that it binds.
+        limit: u64,
+    },
+    /// No local PCA is as small as was asked for.
+    #[error(
+        "no local PCA of this source is as small as asked for, or fits the adapter: the smallest takes {least} bytes; allow at least that"
+    )]
+    LpcaTarget {
+        /// Bytes of the smallest.
+        least: u64,
+    },
     /// A plot that could not be drawn.
     #[error("the plot could not be drawn: {message}; the figures themselves are in compare.json")]
     Plot {

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Memory, PipelineError, Progress, geometry, reflectance, tiles::Job};
+use super::{Memory, PipelineError, Progress, geometry, lpca, reflectance, tiles::Job};
 use crate::{
     data::{Candidate, Material, Provenance},
     gpu::Gpu,
@@ -36,13 +36,14 @@ pub fn fit_within(
     let Candidate { height_scale, height_level, .. } = choice.chosen();
     let geometry = geometry.with_height(&job, height_scale, height_level)?;
     let (svbrdf, fit) = reflectance::recover(&job, &stages, settings, &geometry.field, &choice)?;
+    let lpca = settings.lpca.map(|settings| lpca::recover(&job, &settings)).transpose()?;
     let material = Material {
         height: geometry.height,
         normal: geometry.normal,
         normal_measured: geometry.normal_measured,
         albedo: geometry.albedo,
         svbrdf,
-        lpca: None,
+        lpca,
         fit,
         choice,
         provenance: provenance(gpu, source, settings),

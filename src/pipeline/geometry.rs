@@ -60,7 +60,7 @@ pub(super) fn recover(job: &Job<'_>, settings: &FitSettings) -> Result<Geometry,
     let samples = btf.zenith_samples();
     let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
     let stereo = stage::PhotometricStereo::new(gpu)?;
-    let measured: Vec<[f32; 4]> = job.for_each_tile("normals", &samples, |gathered, _| {
+    let measured: Vec<[f32; 4]> = job.for_each_tile("normals", 1, &samples, |gathered, _| {
         let tile = gathered.tile;
         let size = [tile.texels, tile.samples];
         let normals = run(gpu, progress, "photometric_stereo", size, |recorder| stereo.record(recorder, &tile, &lights, settings.stereo))?;

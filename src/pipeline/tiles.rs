@@ -38,13 +38,28 @@ pub(super) struct Job<'a> {
 impl Job<'_> {
     /// Texels of a tile with `samples` samples.
     fn tile_texels(&self, samples: usize) -> usize {
-        let halves = 3 * samples.next_multiple_of(OCTET) * size_of::<f16>();
-        // Normal and place of the point that each view sees.
-        let seen = self.source.btf().views().len() * size_of::<[f32; 4]>();
-        let array = halves.max(LafortuneFit::STATE_BYTES).max(seen) as u64;
-        let all = (COPIES * halves + LafortuneFit::STATE_BYTES + 2 * seen) as u64;
-        let texels = (self.gpu.max_array_bytes() / array).min(self.memory.adapter / all);
+        let halves = texel_bytes(samples);
+        let array = halves.max(LafortuneFit::STATE_BYTES).max(self.seen_bytes()) as u64;
+        let texels = (self.gpu.max_array_bytes() / array).min(self.memory.adapter / self.working_bytes(samples));
         usize::try_from(texels).unwrap_or(usize::MAX).clamp(1, MAX_TILE_TEXELS)
+    }
+
+    /// Normal and place of the point that each view sees, bytes a texel.
+    fn seen_bytes(&self) -> usize {
+        self.source.btf().views().len() * size_of::<[f32; 4]>()
+    }
+
+    /// What the adapter holds for a texel of the tile that it works on.
+    fn working_bytes(&self, samples: usize) -> u64 {
+        (COPIES * texel_bytes(samples) + LafortuneFit::STATE_BYTES + 2 * self.seen_bytes()) as u64
+    }
+
+    /// Whether the adapter holds all tiles of the source at once, beside what it works on.
+    pub(super) fn keeps(&self, samples: &[usize]) -> bool {
+        let texels = self.source.btf().texels();
+        let all = texels as u64 * texel_bytes(samples.len()) as u64;
+        let working = self.tile_texels(samples.len()).min(texels) as u64 * self.working_bytes(samples.len());
+        all + working <= self.memory.adapter
     }
 
     /// Blocks of which the host holds two: one being read, one being worked on.
@@ -113,15 +128,15 @@ impl Job<'_> {
         Ok((gathered, patches.iter().flat_map(|(_, patch)| places(*patch, 0..patch.texels())).collect()))
     }
 
-    /// What `work` finds for the texels of each tile of the source, `[texel of the plane]`. `work` is given a tile with the given samples
-    /// and the places of its texels (column, row).
+    /// What `work` finds for the texels of each tile of the source, `[texel of the plane][value]` with `width` values a texel. `work` is given a
+    /// tile with the given samples and the places of its texels (column, row).
     /// `what` names the result among those kept.
     pub(super) fn for_each_tile<T: Pod>(
-        &self, what: &str, samples: &[usize], mut work: impl FnMut(Gathered, &[[u32; 2]]) -> Result<Vec<T>, PipelineError>,
+        &self, what: &str, width: usize, samples: &[usize], mut work: impl FnMut(Gathered, &[[u32; 2]]) -> Result<Vec<T>, PipelineError>,
     ) -> Result<Vec<T>, PipelineError> {
         let Self { gpu, source, progress, .. } = *self;
         let gather = Gather::new(gpu)?;
-        let mut found = Found::<T>::new(source.btf().size());
+        let mut found = Found::<T>::new(source.btf().size(), width);
         found.take_up(what, self.unfinished)?;
         let tile_texels = self.tile_texels(samples.len());
         let left: Vec<(Block, Vec<Range<usize>>)> = self
@@ -177,6 +192,11 @@ impl Job<'_> {
     }
 }
 
+/// A texel's samples in a tile.
+fn texel_bytes(samples: usize) -> usize {
+    3 * samples.next_multiple_of(OCTET) * size_of::<f16>()
+}
+
 /// `0..texels` in pieces of at most `length`.
 fn ranges(texels: usize, length: usize) -> impl Iterator<Item = Range<usize>> {
     (0..texels).step_by(length).map(move |start| start..(start + length).min(texels))
@@ -215,17 +235,19 @@ fn named(what: &str, name: &str, size: [usize; 2]) -> Option<(Block, Range<usize
     (block.is_within(size) && start < end && end <= block.texels()).then_some((block, start..end))
 }
 
-/// Results over the texel plane so far.
+/// Results over the texel plane so far, `[texel][value]`.
 struct Found<T> {
     size: [usize; 2],
+    /// Values of a texel.
+    width: usize,
     values: Vec<T>,
     is_there: Vec<bool>,
 }
 
 impl<T: Pod> Found<T> {
-    fn new(size: [usize; 2]) -> Self {
+    fn new(size: [usize; 2], width: usize) -> Self {
         let texels = size[0] * size[1];
-        Self { size, values: vec![T::zeroed(); texels], is_there: vec![false; texels] }
+        Self { size, width, values: vec![T::zeroed(); texels * width], is_there: vec![false; texels] }
     }
 
     /// Takes up what an earlier run has kept of `what`.
@@ -233,7 +255,7 @@ impl<T: Pod> Found<T> {
         let Some(unfinished) = unfinished else { return Ok(()) };
         for name in unfinished.names()? {
             let Some((block, range)) = named(what, &name, self.size) else { continue };
-            let bytes = unfinished.get(&name).filter(|bytes| bytes.len() == range.len() * size_of::<T>());
+            let bytes = unfinished.get(&name).filter(|bytes| bytes.len() == range.len() * self.width * size_of::<T>());
             if let Some(bytes) = bytes {
                 self.put(block, &range, &bytemuck::allocation::pod_collect_to_vec::<u8, T>(&bytes));
             }
@@ -241,10 +263,10 @@ impl<T: Pod> Found<T> {
         Ok(())
     }
 
-    fn put(&mut self, block: Block, range: &Range<usize>, texels: &[T]) {
-        for (texel, value) in range.clone().zip(texels) {
+    fn put(&mut self, block: Block, range: &Range<usize>, values: &[T]) {
+        for (index, texel) in range.clone().enumerate() {
             let at = self.at(block, texel);
-            self.values[at] = *value;
+            self.values[at * self.width..][..self.width].copy_from_slice(&values[index * self.width..][..self.width]);
             self.is_there[at] = true;
         }
     }

@@ -32,7 +32,7 @@ pub(super) fn recover(
         SurfaceMode::Local | SurfaceMode::Auto => (0..job.source.btf().pairs().len()).collect(),
     };
     let model = Model::new(job, stages, settings, field, candidate, choice.representative, samples)?;
-    let texels = job.for_each_tile("reflectance", model.samples(), |gathered, places| {
+    let texels = job.for_each_tile("reflectance", 1, model.samples(), |gathered, places| {
         let masked = gathered.masked.read(job.gpu)?;
         let tile = model.fit(&gathered, places)?;
         tile.texels(job.gpu, &masked)

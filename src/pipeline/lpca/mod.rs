@@ -1,0 +1,193 @@
+//! The original's full look, compressed: a local PCA of the texels (Müller, Meseth, Klein 2003), streamed.
+//!
+//! In four passes over the source, which stays on the adapter between them if it fits:
+//! 1. [`sketch`]: a random sketch of all texels, and from it a global orthonormal basis;
+//! 2. [`alternation`]: coordinates in the basis, where assignment and PCA alternate at a hundredth of the cost;
+//! 3. [`lift`]: the clusters' means and eigenvectors in full;
+//! 4. [`weights`]: the texels' weights in what is stored, and its error.
+//!
+//! The direct method repeats 2 and 3 instead of alternating, with the span of the clusters themselves as the basis, in which their distances are exact.
+//! Everything is deterministic for a seed; sums over tiles have the tiles' order, so that another bound on memory changes rounding.
+
+mod alternation;
+mod choice;
+mod lift;
+mod sketch;
+mod space;
+mod tiles;
+mod weights;
+
+use self::{
+    alternation::{Alternated, Coordinates, alternate},
+    lift::{Cluster, lift},
+    space::Space,
+    tiles::Tiles,
+    weights::store,
+};
+use super::{Memory, PipelineError, Progress, tiles::Job};
+use crate::{
+    data::{Learned, Lpca, Map, OCTET},
+    gpu::Gpu,
+    io::{Source, Unfinished},
+    model::{LpcaMethod, LpcaSettings},
+    stage,
+};
+
+/// Compresses `source` by local PCA.
+///
+/// Works in tiles sized from the adapter's limits and `memory`. With `unfinished`, passes and tiles that an earlier run kept are not done again.
+///
+/// # Errors
+/// [`PipelineError`] if the source cannot be read, a setting is out of range, the result would not fit the adapter, a pass cannot be kept, or the
+/// adapter fails.
+pub fn lpca(
+    gpu: &Gpu, source: &dyn Source, settings: &LpcaSettings, memory: Memory, unfinished: Option<&Unfinished>, progress: &Progress,
+) -> Result<Lpca, PipelineError> {
+    settings.checked()?;
+    recover(&Job { gpu, source, memory, unfinished, progress }, settings)
+}
+
+/// The stages on one device.
+struct Stages {
+    lift: stage::LpcaLift,
+    project: stage::LpcaProject,
+    assign: stage::LpcaAssign,
+    covariance: stage::LpcaCovariance,
+    weights: stage::LpcaWeights,
+}
+
+impl Stages {
+    fn new(gpu: &Gpu) -> Result<Self, PipelineError> {
+        Ok(Self {
+            lift: stage::LpcaLift::new(gpu)?,
+            project: stage::LpcaProject::new(gpu)?,
+            assign: stage::LpcaAssign::new(gpu)?,
+            covariance: stage::LpcaCovariance::new(gpu)?,
+            weights: stage::LpcaWeights::new(gpu)?,
+        })
+    }
+}
+
+/// As [`lpca`].
+pub(super) fn recover(job: &Job<'_>, settings: &LpcaSettings) -> Result<Lpca, PipelineError> {
+    check_size(job, settings)?;
+    let btf = job.source.btf();
+    let stages = Stages::new(job.gpu)?;
+    let mut tiles = Tiles::new(job, reserved(job, settings));
+    let sketch = sketch::sketch(&mut tiles, &stages, settings)?;
+    let space = Space::new(job.gpu, btf, &sketch, settings.weighting)?;
+    let vectors = sketch::basis(&space, &sketch, settings);
+    drop(sketch);
+    let coordinates = Coordinates::project(&mut tiles, &stages, &space, &vectors, "lpca coordinates")?;
+    let mut run = Run { tiles, stages, space };
+    let (settings, candidates) = choice::choose(&mut run, &coordinates, settings)?;
+    let (found, clusters) = match settings.method {
+        LpcaMethod::Basis => {
+            let found = alternate(&run.tiles, &run.stages, &run.space, &coordinates, &settings, None)?;
+            let clusters = lift(&mut run.tiles, &run.stages, &run.space, &coordinates, &found, "lpca lift")?;
+            (found, clusters)
+        }
+        LpcaMethod::Direct => run.direct(&coordinates, &settings)?,
+    };
+    let Run { mut tiles, stages, space } = run;
+    let components = settings.components as usize;
+    let stored = store(&mut tiles, &stages, &space, &clusters, &found.cluster_of, components)?;
+    let [columns, rows] = btf.size();
+    let lpca = Lpca {
+        pairs: btf.pairs().to_vec(),
+        clusters: clusters.len(),
+        components,
+        cluster: Map::new(columns, rows, found.cluster_of)?,
+        weights: stored.weights,
+        terms: stored.terms,
+        error: stored.error,
+        learned: Learned {
+            relative_rms: stored.relative_rms,
+            rank: vectors.len(),
+            left_out: coordinates.left_out,
+            errors: found.errors,
+            candidates,
+        },
+    };
+    lpca.check(btf.size())?;
+    Ok(lpca)
+}
+
+/// What every step needs.
+struct Run<'a> {
+    tiles: Tiles<'a>,
+    stages: Stages,
+    space: Space,
+}
+
+impl Run<'_> {
+    /// Alternates in the span of the clusters themselves, from one alternation in the basis.
+    fn direct(&mut self, coordinates: &Coordinates, settings: &LpcaSettings) -> Result<(Alternated, Vec<Cluster>), PipelineError> {
+        let Self { tiles, stages, space } = self;
+        let once = LpcaSettings { iterations: 1, ..*settings };
+        let mut found = alternate(tiles, stages, space, coordinates, &once, None)?;
+        let mut clusters = lift(tiles, stages, space, coordinates, &found, "lpca lift 0")?;
+        let mut errors: Vec<f64> = Vec::new();
+        for round in 1..=settings.iterations {
+            let means: Vec<Vec<f64>> = clusters.iter().map(|cluster| space.vector(&cluster.mean)).collect();
+            let all: Vec<Vec<f64>> = means.iter().chain(clusters.iter().flat_map(|cluster| &cluster.directions)).cloned().collect();
+            let span = sketch::orthonormal(&all, all.len(), |_, _| false);
+            let coordinates = Coordinates::project(tiles, stages, space, &span, &format!("lpca coordinates {round}"))?;
+            let inside = |vector: &Vec<f64>| {
+                let mut own: Vec<f64> = span.iter().map(|axis| axis.iter().zip(vector).map(|(a, b)| a * b).sum()).collect();
+                own.resize(coordinates.rank, 0.0);
+                own
+            };
+            let start = means.iter().zip(&clusters).map(|(mean, cluster)| (inside(mean), cluster.directions.iter().map(inside).collect()));
+            found = alternate(tiles, stages, space, &coordinates, &once, Some(start.collect()))?;
+            clusters = lift(tiles, stages, space, &coordinates, &found, &format!("lpca lift {round}"))?;
+            // Of the clusters that were lifted last, which their span holds.
+            let error = found.errors[0];
+            let is_settled = errors.last().is_some_and(|&last| last - error <= LpcaSettings::SETTLED * last);
+            errors.push(error);
+            if is_settled {
+                break;
+            }
+        }
+        found.errors = errors;
+        Ok((found, clusters))
+    }
+}
+
+/// Checks that a renderer may bind the terms.
+fn check_size(job: &Job<'_>, settings: &LpcaSettings) -> Result<(), PipelineError> {
+    let samples = job.source.btf().pairs().len();
+    let (clusters, components) = (settings.clusters as usize, settings.components as usize);
+    let (bytes, limit) = (Lpca::adapter_bytes(0, samples, clusters, components), job.gpu.max_array_bytes());
+    if settings.target.is_none() && bytes > limit {
+        let adapter = job.gpu.adapter().name.clone();
+        return Err(PipelineError::LpcaTooLarge { clusters, components, samples, bytes, adapter, limit });
+    }
+    Ok(())
+}
+
+/// Bytes of the adapter's memory that coordinates, sums and terms take at most, by and large.
+fn reserved(job: &Job<'_>, settings: &LpcaSettings) -> u64 {
+    let btf = job.source.btf();
+    let lines = 3 * btf.pairs().len().div_ceil(OCTET);
+    let rank = settings.rank.unwrap_or(settings.auto_rank()) as usize;
+    let (clusters, components) = (settings.clusters as usize, settings.components as usize);
+    let coordinates = btf.texels() * (rank + components + 2) * size_of::<f32>();
+    let sums = clusters.max(rank / 4) * (components + 4) * lines * size_of::<stage::Line>();
+    (coordinates + 2 * sums) as u64
+}
+
+/// What `find` finds, or what an earlier run kept of it under the name `what`.
+fn kept(
+    tiles: &mut Tiles<'_>, what: &str, find: impl FnOnce(&mut Tiles<'_>) -> Result<Vec<f32>, PipelineError>,
+) -> Result<Vec<f32>, PipelineError> {
+    let unfinished = tiles.job().unfinished;
+    if let Some(bytes) = unfinished.and_then(|unfinished| unfinished.get(what)) {
+        return Ok(bytemuck::pod_collect_to_vec(&bytes));
+    }
+    let found = find(tiles)?;
+    if let Some(unfinished) = unfinished {
+        unfinished.put(what, bytemuck::cast_slice(&found))?;
+    }
+    Ok(found)
+}
