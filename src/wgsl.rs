@@ -25,6 +25,8 @@ sources! {
     DARK_SAMPLES = "kernels" "dark_samples";
     /// Samples about a centre.
     DEVIATION = "kernels/common" "deviation";
+    /// Interpolation between measured directions.
+    DIRECTION_MESH = "kernels/common" "direction_mesh";
     /// One pass of a Fourier transform.
     FFT = "kernels" "fft";
     /// Kubelka-Munk films.
@@ -69,8 +71,12 @@ sources! {
     LINEAR_REFIT = "kernels" "linear_refit";
     /// Samples whose reflectance stands in the frames of normals.
     LOCAL_SAMPLES = "kernels/common" "local_samples";
+    /// A BTF compressed by local PCA.
+    LPCA = "kernels/common" "lpca";
     /// Texels to the nearest cluster of a local PCA.
     LPCA_ASSIGN = "kernels" "lpca_assign";
+    /// Terms of a local PCA under one view and light.
+    LPCA_BLEND = "kernels" "lpca_blend";
     /// Sums that tell mean and covariance of a local PCA's clusters.
     LPCA_COVARIANCE = "kernels" "lpca_covariance";
     /// Sums of samples by the weights of a local PCA.
@@ -113,6 +119,8 @@ sources! {
     RADIANCE_ERROR = "kernels" "radiance_error";
     /// What the source's camera would have recorded.
     RECONSTRUCT = "kernels" "reconstruct";
+    /// The same from a compressed BTF.
+    RECONSTRUCT_LPCA = "kernels" "reconstruct_lpca";
     /// Rays against a height field.
     RELIEF = "kernels/common" "relief";
     /// Radiance that leaves a place of the base plane.
@@ -135,6 +143,8 @@ sources! {
     SURFACE = "kernels/common" "surface";
     /// Radiance of a material that is fully known.
     SYNTH = "kernels" "synth";
+    /// Interpolation between texels.
+    TEXEL_FILTER = "kernels/common" "texel_filter";
     /// Index of a thread in a folded grid.
     THREAD = "kernels/common" "thread";
 }

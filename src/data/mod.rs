@@ -4,22 +4,26 @@
 mod block;
 mod btf;
 mod direction;
+mod direction_mesh;
 mod encoding;
 mod grid;
 mod lpca;
 mod map;
 mod material;
+mod nearest_samples;
 mod plane_view;
 mod samples;
 
 pub use block::Block;
 pub use btf::{Btf, BtfError, Pair};
 pub use direction::Direction;
+pub use direction_mesh::{Corner, DirectionMesh};
 pub use encoding::{Encoding, RowOrder, Transfer, radiance_half};
 pub use grid::{Grid, GridError};
 pub use lpca::{Learned, Lpca, LpcaCandidate};
 pub use map::{Map, ShapeError};
 pub use material::{Candidate, Choice, Fit, FitStatus, Left, Lobe, Material, Provenance, Svbrdf};
+pub use nearest_samples::nearest_samples;
 pub use plane_view::PlaneView;
 pub use samples::{OCTET, Samples};
 

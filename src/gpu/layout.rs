@@ -64,6 +64,13 @@ impl GpuValue for [f16; 8] {
     }
 }
 
+/// Four halves, which WGSL sees as `vec2<u32>`.
+impl GpuValue for [f16; 4] {
+    fn fields() -> Vec<Field> {
+        <[u32; 2]>::fields()
+    }
+}
+
 /// Declares a `#[repr(C)]` parameter struct once, with the layout that the WGSL side is checked against.
 ///
 /// Fields that start with `_` are padding.

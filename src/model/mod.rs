@@ -17,6 +17,7 @@ mod settings;
 pub mod spectrum;
 pub mod stereo;
 mod synth;
+mod texel_samples;
 
 pub use boundary::Boundary;
 pub use coat::Coat;
@@ -31,3 +32,4 @@ pub use pigments::Pigment;
 pub use relief::Relief;
 pub use settings::{FitSettings, SettingsError, SpecularScale, StereoMethod, SurfaceMode};
 pub use synth::{HeightField, Synth, SynthError, SynthPlace, SynthReflectance, SynthTexel};
+pub use texel_samples::TexelSamples;

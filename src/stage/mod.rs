@@ -1,7 +1,9 @@
 //! Host side of the compute stages, one file each.
 
 mod brdf_values;
+mod compressed_btf;
 mod dark_samples;
+mod direction_mesh;
 mod error;
 mod fft;
 mod flatness;
@@ -27,6 +29,7 @@ mod photometric_stereo;
 mod picture_error;
 mod radiance_error;
 mod reconstruct;
+mod reconstruct_lpca;
 mod scalar;
 mod seen_surface;
 mod shading;
@@ -37,7 +40,9 @@ mod synth;
 mod tile;
 
 pub use brdf_values::BrdfValues;
+pub use compressed_btf::{CompressedBtf, CompressedBtfParams};
 pub use dark_samples::DarkSamples;
+pub use direction_mesh::pack_directions;
 pub use error::StageError;
 pub use fft::Fft;
 pub use flatness::Flatness;
@@ -62,6 +67,7 @@ pub use photometric_stereo::PhotometricStereo;
 pub use picture_error::{Originals, PictureError, PictureSums};
 pub use radiance_error::RadianceError;
 pub use reconstruct::Reconstruct;
+pub use reconstruct_lpca::ReconstructLpca;
 pub use seen_surface::{Seen, SeenSurface};
 pub use shading::{Shaded, Shading};
 pub use specular_residual::SpecularResidual;

@@ -1,9 +1,12 @@
 //! What tests share: registration, the adapter, the data folder, comparison with a bound.
 
+pub mod directions;
 pub mod files;
 pub mod held;
 pub mod known;
+pub mod lines;
 pub mod local;
+pub mod lpca;
 pub mod material;
 pub mod npy;
 pub mod probe;

@@ -1,7 +1,7 @@
 //! Runs functions of `kernels/common` by themselves.
 
 use overpaint::{
-    gpu::{Gpu, Grid, Kernel, Resource, Source, bind},
+    gpu::{Bind, Gpu, Grid, Kernel, Resource, Source, bind},
     wgsl,
 };
 
@@ -28,13 +28,21 @@ macro_rules! probe {
 
 /// The first `count` values of the probe in `text` over `inputs`.
 pub fn probe(gpu: &Gpu, text: &'static str, inputs: &[[f32; 4]], count: usize) -> Vec<[f32; 4]> {
+    probe_with(gpu, text, inputs, count, &[], &[])
+}
+
+/// As [`probe`], of a function that reads more than its inputs.
+pub fn probe_with(
+    gpu: &Gpu, text: &'static str, inputs: &[[f32; 4]], count: usize, resources: &[Resource], binds: &[Bind<'_>],
+) -> Vec<[f32; 4]> {
     let source = Source { name: "probe", path: "tests", text };
-    let resources = [Resource::read::<[f32; 4]>("inputs"), Resource::read_write::<[f32; 4]>("outputs")];
-    let kernel = Kernel::new(gpu, &source, wgsl::ALL, &resources).expect("builds");
+    let own = [Resource::read::<[f32; 4]>("inputs"), Resource::read_write::<[f32; 4]>("outputs")];
+    let kernel = Kernel::new(gpu, &source, wgsl::ALL, &[&own, resources].concat()).expect("builds");
     let inputs = gpu.upload("inputs", inputs).expect("fits");
     let outputs = gpu.fresh("outputs", count).expect("fits");
     let mut recorder = gpu.recorder();
-    recorder.dispatch(&kernel, &[bind("inputs", &inputs), bind("outputs", &outputs)], Grid::threads(count)).expect("records");
+    let binds = [&[bind("inputs", &inputs), bind("outputs", &outputs)], binds].concat();
+    recorder.dispatch(&kernel, &binds, Grid::threads(count)).expect("records");
     gpu.submit(recorder).wait(gpu).expect("runs");
     outputs.read(gpu).expect("reads")
 }

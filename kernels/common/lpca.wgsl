@@ -1,0 +1,91 @@
+// A BTF that is compressed by local PCA (Mueller, Meseth, Klein 2003): radiance in reflectance units at any place under any view and light,
+// interpolated between nine measured pairs and some texels. Twin: reference::reconstruct_lpca.
+#import direction_mesh
+#import texel_filter
+
+struct CompressedBtf {
+    width: u32,
+    height: u32,
+    boundary: u32,
+    // texels that a place is interpolated from (model::TexelSamples)
+    texel_samples: u32,
+    clusters: u32,
+    components: u32,
+    // measured lights, and where their table with the views begins in `directions`: [view][light], the sample, four an element
+    lights: u32,
+    samples: u32,
+    // meshes of views and lights in `directions`: first element, cells a side
+    view_mesh: vec2<u32>,
+    light_mesh: vec2<u32>,
+}
+
+@group(0) @binding(9) var<uniform> btf: CompressedBtf;
+// [sample][cluster][term], four halves (red, green, blue, 0), reflectance units; term 0 is the cluster's mean, the others its eigenvectors
+@group(0) @binding(10) var<storage, read> terms: array<vec2<u32>>;
+// [word][row][column]: word 0 is the cluster, the others hold two weights each as halves, the last filled up with 0
+@group(0) @binding(11) var<storage, read> texels: array<u32>;
+
+// Measured pairs around a view and a light; all weights are 0 if either is below the horizon, else they sum to 1.
+struct Pairs {
+    samples: array<u32, 9>,
+    weights: array<f32, 9>,
+}
+
+fn measured_pairs(view: vec3<f32>, light: vec3<f32>) -> Pairs {
+    let views = direction_weights(DirectionMesh(btf.view_mesh.x, btf.view_mesh.y), view);
+    let lights = direction_weights(DirectionMesh(btf.light_mesh.x, btf.light_mesh.y), light);
+    let above = select(0.0, 1.0, view.z >= 0.0 && light.z >= 0.0);
+    var pairs: Pairs;
+    for (var pair = 0u; pair < 9u; pair++) {
+        let at = views.directions[pair / 3u] * btf.lights + lights.directions[pair % 3u];
+        pairs.samples[pair] = directions[btf.samples + at / 4u][at % 4u];
+        pairs.weights[pair] = above * views.weights[pair / 3u] * lights.weights[pair % 3u];
+    }
+    return pairs;
+}
+
+// A term of a cluster, interpolated between the pairs.
+fn term_of(pairs: ptr<function, Pairs>, cluster: u32, term: u32) -> vec3<f32> {
+    var sum = vec3(0.0);
+    for (var pair = 0u; pair < 9u; pair++) {
+        let weight = (*pairs).weights[pair];
+        if weight > 0.0 {
+            let packed = terms[((*pairs).samples[pair] * btf.clusters + cluster) * (1u + btf.components) + term];
+            sum += weight * vec3(unpack2x16float(packed.x), unpack2x16float(packed.y).x);
+        }
+    }
+    return sum;
+}
+
+// Index of a texel, given before the boundary.
+fn texel_index(texel: vec2<i32>) -> u32 {
+    return wrap(texel.y, btf.height, btf.boundary) * btf.width + wrap(texel.x, btf.width, btf.boundary);
+}
+
+// A texel's weight of an eigenvector.
+fn component_weight(texel: u32, component: u32) -> f32 {
+    return unpack2x16float(texels[(1u + component / 2u) * btf.width * btf.height + texel])[component % 2u];
+}
+
+// Radiance that leaves a place of the base plane; black below the horizon. Eigenvectors may take it below 0, which no radiance is:
+// it is held to 0 last, when all is interpolated.
+fn compressed_radiance(place: vec2<f32>, view: vec3<f32>, light: vec3<f32>) -> vec3<f32> {
+    var pairs = measured_pairs(view, light);
+    let footprint = footprint_at(place, btf.texel_samples);
+    var radiance = vec3(0.0);
+    var total = 0.0;
+    for (var index = 0u; index < footprint.width * footprint.width; index++) {
+        let tap = tap_at(footprint, index);
+        if tap.weight > 0.0 {
+            let texel = texel_index(tap.texel);
+            let cluster = texels[texel];
+            var own = term_of(&pairs, cluster, 0u);
+            for (var component = 0u; component < btf.components; component++) {
+                own += component_weight(texel, component) * term_of(&pairs, cluster, 1u + component);
+            }
+            radiance += tap.weight * own;
+            total += tap.weight;
+        }
+    }
+    return max(radiance / total, vec3(0.0));
+}
