@@ -2,7 +2,6 @@
 
 use std::{collections::BTreeMap, fmt::Display, path::PathBuf};
 
-use bytesize::ByteSize;
 use clap::{Args, CommandFactory, error::ErrorKind};
 use serde::{Serialize, Serializer};
 
@@ -135,6 +134,8 @@ impl Measured {
 /// The local PCA of a material.
 #[derive(Serialize)]
 struct Compressed {
+    #[serde(skip)]
+    in_a_line: String,
     clusters: usize,
     components: usize,
     rank: usize,
@@ -149,6 +150,7 @@ struct Compressed {
 impl Compressed {
     fn of(lpca: &Lpca, stored_bytes: u64) -> Self {
         Self {
+            in_a_line: lpca.to_string(),
             clusters: lpca.clusters,
             components: lpca.components,
             rank: lpca.learned.rank,
@@ -255,22 +257,8 @@ impl Lines {
     }
 
     fn compressed(&mut self, lpca: Option<&Compressed>) {
-        let Some(&Compressed { clusters, components, rank, left_out, relative_rms, adapter_bytes, stored_bytes, source_bytes }) = lpca
-        else {
-            return self.add("local PCA", "none");
-        };
-        let size = |bytes: u64| format!("{} (1/{:.1})", ByteSize::b(bytes), source_bytes as f64 / bytes.max(1) as f64);
-        let texts = [
-            format!("{clusters} clusters of {components} components, relative RMS error {relative_rms:.4}"),
-            format!("basis of {rank} vectors, which leaves out {:.3} % of the variance", 100.0 * left_out),
-            format!(
-                "{} on the adapter, {} on disk; the source takes {} as halves",
-                size(adapter_bytes),
-                size(stored_bytes),
-                ByteSize::b(source_bytes)
-            ),
-        ];
-        self.list("local PCA", texts.into_iter());
+        let Some(Compressed { in_a_line, stored_bytes, .. }) = lpca else { return self.add("local PCA", "none") };
+        self.list("local PCA", [in_a_line.clone(), format!("{:.2} MB on disk", *stored_bytes as f64 / 1e6)].into_iter());
     }
 
     fn measured(&mut self, Measured { samples, every_pair, missing, first_missing, grid, encoding, views, lights }: &Measured) {

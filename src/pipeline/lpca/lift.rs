@@ -94,6 +94,10 @@ fn cluster(space: &Space, sums: &[&[f32]], weights: &DMatrix<f64>, energy: f64) 
     let shift: Vec<f64> = sums[0].iter().zip(counts).map(|(&sum, &count)| f64::from(sum) / f64::from(count).max(1.0)).collect();
     let mean = shift.iter().zip(&space.centre).map(|(shift, centre)| centre + shift).collect();
     let energy = (energy - members * space.product(&shift, &shift)).max(0.0);
+    let mut cluster = Cluster { members, mean, directions: Vec::new(), energies: Vec::new(), energy };
+    if components == 0 {
+        return cluster;
+    }
 
     // Weights about their mean: W W^T = U D U^T.
     let mean_weights = weights.column_mean();
@@ -102,6 +106,9 @@ fn cluster(space: &Space, sums: &[&[f32]], weights: &DMatrix<f64>, energy: f64) 
     let eigen = (&centred * centred.transpose()).symmetric_eigen();
     let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
     let spread: Vec<usize> = (0..components).filter(|&index| eigen.eigenvalues[index] > NOISE * largest).collect();
+    if spread.is_empty() {
+        return cluster;
+    }
     // What the weights explain of the members is W^T D^(-1/2) U^T S, S being the sums of members by weights.
     let decorrelate = DMatrix::from_fn(spread.len(), components, |row, column| {
         eigen.eigenvectors[(column, spread[row])] / eigen.eigenvalues[spread[row]].sqrt()
@@ -117,7 +124,7 @@ fn cluster(space: &Space, sums: &[&[f32]], weights: &DMatrix<f64>, energy: f64) 
     let combination = DMatrix::from_fn(spread.len(), order.len(), |row, column| {
         eigen.eigenvectors[(row, order[column])] / eigen.eigenvalues[order[column]].sqrt()
     });
-    let directions = (explained * combination).column_iter().map(|column| column.iter().copied().collect()).collect();
-    let energies = order.iter().map(|&index| eigen.eigenvalues[index]).collect();
-    Cluster { members, mean, directions, energies, energy }
+    cluster.directions = (explained * combination).column_iter().map(|column| column.iter().copied().collect()).collect();
+    cluster.energies = order.iter().map(|&index| eigen.eigenvalues[index]).collect();
+    cluster
 }
