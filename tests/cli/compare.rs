@@ -84,6 +84,18 @@ fn a_comparison_has_its_figures_and_pictures(gpu: &Gpu) {
     let flat = read_json(&folder.join("compared/compare.json"));
     assert_eq!((&flat["relief"]["displace"], &flat["relief"]["shadow"]), (&false.into(), &false.into()));
     assert_ne!(flat["overall"]["relative_rms"], overall["relative_rms"]);
+    // Its local PCA, which holds all of it and so is nearer.
+    succeed(gpu, folder, &["compare", "btf.zarr", "material.zarr", "-o", "compared", "--model", "lpca"]);
+    let compressed = read_json(&folder.join("compared/compare.json"));
+    assert_eq!((&compressed["model"], &compressed["texel_samples"], &compressed["relief"]), (&"lpca".into(), &1.into(), &Value::Null));
+    let error = |figures: &Value| figures["overall"]["relative_rms"].as_f64().expect("is a number");
+    assert!(error(&compressed) < 0.5 * overall["relative_rms"].as_f64().expect("is a number"), "{}", compressed["overall"]);
+    // What the fit says that it leaves; compare holds radiance to 0 and above.
+    let left = compressed["material"]["lpca"]["learned"]["relative_rms"].as_f64().expect("is a number");
+    assert!(error(&compressed) <= 1.001 * left, "{left} in {}", compressed["overall"]);
+    for file in ["iterations.svg", "between.png"] {
+        assert!(fs::metadata(folder.join("compared").join(file)).is_ok_and(|there| there.len() > 0), "{file}");
+    }
     // A part of the source and the material of that part.
     let region = ["--region", "8,4,9x7", "--every", "2"];
     succeed(gpu, folder, &[&["fit", "btf.zarr", "-o", "part.zarr"], &region[..]].concat());
@@ -97,6 +109,12 @@ fn what_does_not_go_together_is_refused(gpu: &Gpu) {
         let adapter = ["--adapter", &gpu.adapter().name];
         overpaint(folder.path(), &[&["compare", "btf.zarr", "material.zarr", "-o", "compared"], arguments, &adapter].concat())
     };
+    succeed(gpu, folder.path(), &["fit", "btf.zarr", "-o", "bare.zarr", "--no-lpca"]);
+    let bare = ["bare.zarr", "--model", "lpca", "--adapter", &gpu.adapter().name];
+    let directions = ["--view", "0,0", "--light", "0,0", "-o", "seen.png"];
+    for arguments in [[&["reconstruct"], &bare[..], &directions].concat(), [&["compare", "btf.zarr"], &bare[..], &["-o", "compared"]].concat()] {
+        refused(&overpaint(folder.path(), &arguments), 1, "has no local PCA; fit it again without --no-lpca");
+    }
     refused(&compare(&["--region", "0,0,8x5"]), 1, "has 8 x 5 texels and the material 24 x 16");
     refused(&compare(&["--texel", "24,3"]), 1, "there is no texel 24,3: the plane has columns 0 to 23 and rows 0 to 15");
     assert!(!folder.path().join("compared").exists(), "nothing is left behind");
