@@ -2,12 +2,13 @@
 
 use std::{collections::BTreeMap, fmt::Display, path::PathBuf};
 
+use bytesize::ByteSize;
 use clap::{Args, CommandFactory, error::ErrorKind};
 use serde::{Serialize, Serializer};
 
 use super::{Cli, CliError, reading::ReadingArguments, say};
 use crate::{
-    data::{Btf, Choice, Direction, Encoding, FitStatus, Material, Provenance, RowOrder, Transfer},
+    data::{Btf, Choice, Direction, Encoding, FitStatus, Lpca, Material, Provenance, RowOrder, Transfer},
     io::{
         self,
         conventions::{self, Convention},
@@ -34,7 +35,7 @@ impl Info {
                 let message = format!("{} is a material: options for reading are for sources; leave them out here", self.path.display());
                 return Err(Cli::command().error(ErrorKind::ArgumentConflict, message).into());
             }
-            io::Kind::Material => Content::of_material(&io::material::load(&self.path)?),
+            io::Kind::Material => Content::of_material(&io::material::load(&self.path)?, io::material::lpca_bytes(&self.path)?),
             // What is neither is refused by `open`, which says why.
             io::Kind::Source | io::Kind::Neither => Content::of_source(io::open_with(&self.path, &self.reading.options())?.btf()),
         };
@@ -77,6 +78,7 @@ enum Content {
         masked: u64,
         choice: Choice,
         lobes: usize,
+        lpca: Option<Compressed>,
         provenance: Box<Provenance>,
         #[serde(serialize_with = "as_map")]
         conventions: &'static [Convention],
@@ -130,6 +132,35 @@ impl Measured {
     }
 }
 
+/// The local PCA of a material.
+#[derive(Serialize)]
+struct Compressed {
+    clusters: usize,
+    components: usize,
+    rank: usize,
+    left_out: f64,
+    relative_rms: f64,
+    adapter_bytes: u64,
+    stored_bytes: u64,
+    /// The source's samples as halves.
+    source_bytes: u64,
+}
+
+impl Compressed {
+    fn of(lpca: &Lpca, stored_bytes: u64) -> Self {
+        Self {
+            clusters: lpca.clusters,
+            components: lpca.components,
+            rank: lpca.learned.rank,
+            left_out: lpca.learned.left_out,
+            relative_rms: lpca.learned.relative_rms,
+            adapter_bytes: lpca.bytes(),
+            stored_bytes,
+            source_bytes: lpca.source_bytes(),
+        }
+    }
+}
+
 /// As a material stores them.
 fn as_map<S: Serializer>(conventions: &[Convention], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(conventions.iter().copied())
@@ -153,7 +184,7 @@ impl Content {
         Self::Source { name: btf.name().to_owned(), width, height, measured: Measured::of_source(btf), conventions: conventions::SOURCE }
     }
 
-    fn of_material(material: &Material) -> Self {
+    fn of_material(material: &Material, lpca_bytes: u64) -> Self {
         let [width, height] = material.size();
         let codes = material.fit.status.values();
         let texels = |status: FitStatus| codes.iter().filter(|&&code| FitStatus::from_code(code) == Some(status)).count();
@@ -167,6 +198,7 @@ impl Content {
             masked: material.fit.masked.values().iter().copied().map(u64::from).sum(),
             choice: material.choice.clone(),
             lobes: material.svbrdf.lobes.len(),
+            lpca: material.lpca.as_ref().map(|lpca| Compressed::of(lpca, lpca_bytes)),
             provenance: Box::new(material.provenance.clone()),
             conventions: conventions::MATERIAL,
         }
@@ -181,7 +213,7 @@ impl Content {
                 lines.measured(measured);
                 conventions
             }
-            Self::Material { width, height, lowest, highest, fit, masked, choice, lobes, provenance, conventions } => {
+            Self::Material { width, height, lowest, highest, fit, masked, choice, lobes, lpca, provenance, conventions } => {
                 lines.add("material of", &provenance.source);
                 lines.add("texels", format!("{width} x {height}"));
                 lines.add("height", format!("{lowest:.3} to {highest:.3} texel widths"));
@@ -189,6 +221,7 @@ impl Content {
                 lines.add("fit", ends.join(", "));
                 lines.add("surface", choice);
                 lines.add("lobes", lobes);
+                lines.compressed(lpca.as_ref());
                 lines.add("masked", format!("{masked} samples that are no radiance"));
                 lines.measured(&Measured::of_provenance(provenance));
                 lines.add("adapter", &provenance.adapter);
@@ -219,6 +252,25 @@ impl Lines {
         for (index, text) in texts.enumerate() {
             self.add(if index == 0 { label } else { "" }, text);
         }
+    }
+
+    fn compressed(&mut self, lpca: Option<&Compressed>) {
+        let Some(&Compressed { clusters, components, rank, left_out, relative_rms, adapter_bytes, stored_bytes, source_bytes }) = lpca
+        else {
+            return self.add("local PCA", "none");
+        };
+        let size = |bytes: u64| format!("{} (1/{:.1})", ByteSize::b(bytes), source_bytes as f64 / bytes.max(1) as f64);
+        let texts = [
+            format!("{clusters} clusters of {components} components, relative RMS error {relative_rms:.4}"),
+            format!("basis of {rank} vectors, which leaves out {:.3} % of the variance", 100.0 * left_out),
+            format!(
+                "{} on the adapter, {} on disk; the source takes {} as halves",
+                size(adapter_bytes),
+                size(stored_bytes),
+                ByteSize::b(source_bytes)
+            ),
+        ];
+        self.list("local PCA", texts.into_iter());
     }
 
     fn measured(&mut self, Measured { samples, every_pair, missing, first_missing, grid, encoding, views, lights }: &Measured) {

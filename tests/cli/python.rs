@@ -4,23 +4,31 @@ use std::{fs, path::Path, process::Command};
 
 use libtest_mimic::Trial;
 use overpaint::{
-    data::Map,
-    io,
+    data::{Map, Material},
+    io::{self, material},
     pipeline::{Memory, Observer, Progress, import},
 };
 
-use crate::support::speckle::Speckle;
+use crate::support::{
+    material::{local_pca, sample},
+    speckle::Speckle,
+};
 
 /// The tests need python3 with zarr and xarray, and are ignored by name without.
 pub fn tests() -> Vec<Trial> {
     let is_there = Command::new("python3").args(["-c", "import zarr, xarray"]).output().is_ok_and(|ran| ran.status.success());
-    vec![
-        Trial::test("cli::python::a_dataset_opens_in_zarr_and_xarray", || {
-            a_dataset_opens_in_zarr_and_xarray();
+    let tests: [(&str, fn()); 2] = [
+        ("cli::python::a_dataset_opens_in_zarr_and_xarray", a_dataset_opens_in_zarr_and_xarray),
+        ("cli::python::a_local_pca_is_reconstructed", a_local_pca_is_reconstructed),
+    ];
+    let trial = |(name, test): (&str, fn())| {
+        Trial::test(name, move || {
+            test();
             Ok(())
         })
-        .with_ignored_flag(!is_there),
-    ]
+        .with_ignored_flag(!is_there)
+    };
+    tests.into_iter().map(trial).collect()
 }
 
 #[derive(Debug)]
@@ -52,8 +60,43 @@ fn a_dataset_opens_in_zarr_and_xarray() {
         f64::from(picture[(11, 7)][1]),
         f64::from(picture[(39, 29)][0])
     );
+    run(folder.path(), &(snippet("\"cloth-btf.zarr\"") + &checks));
+}
+
+fn a_local_pca_is_reconstructed() {
+    let folder = tempfile::tempdir().expect("is made");
+    let lpca = local_pca([10, 6], [6, 3, 4]);
+    let saved = Material { lpca: Some(lpca.clone()), ..sample([10, 6], 1) };
+    material::save(&folder.path().join("cloth.zarr"), &saved).expect("saves");
+    // Column 7 of row 4.
+    let texel = 4 * 10 + 7;
+    let term = |sample: usize, term: usize, channel: usize| {
+        f64::from(lpca.terms[((sample * 3 + lpca.cluster[(7, 4)] as usize) * 5 + term) * 3 + channel])
+    };
+    let weights = |component: usize| f64::from(lpca.weights[texel * 4 + component]);
+    let radiance = |sample: usize, channel: usize| {
+        term(sample, 0, channel) + (0..4).map(|component| weights(component) * term(sample, 1 + component, channel)).sum::<f64>()
+    };
+    let checks = format!(
+        "\nimport xarray\n\
+         stored = xarray.open_zarr('cloth.zarr', consolidated=False)\n\
+         assert stored.lpca_terms.dims == ('sample', 'cluster', 'term', 'channel') and stored.lpca_terms.shape == (6, 3, 5, 3)\n\
+         assert str(stored.lpca_weights.dtype) == 'float16' and stored.lpca_weights.dims == ('row', 'column', 'component')\n\
+         assert stored.lpca_pairs.values.tolist() == {:?}\n\
+         assert material.attrs['lpca']['clusters'] == 3\n\
+         assert radiance.shape == (6, 3)\n\
+         assert abs(float(radiance[4, 2]) - {:?}) < 1e-5 and abs(float(radiance[5, 0]) - {:?}) < 1e-5\n",
+        lpca.pairs.iter().map(|pair| [pair.view, pair.light]).collect::<Vec<_>>(),
+        radiance(4, 2),
+        radiance(5, 0),
+    );
+    run(folder.path(), &(snippet("\"cloth.zarr\"") + &checks));
+}
+
+/// Runs a script in `folder`.
+fn run(folder: &Path, script: &str) {
     let mut python = Command::new("python3");
-    python.args(["-c", &(snippet("cloth-btf.zarr") + &checks)]).current_dir(folder.path());
+    python.args(["-c", script]).current_dir(folder);
     let ran = python.output().expect("starts");
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
 }

@@ -5,6 +5,7 @@ pub mod files;
 pub mod held;
 pub mod known;
 pub mod local;
+pub mod material;
 pub mod lpca;
 pub mod npy;
 pub mod probe;

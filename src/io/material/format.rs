@@ -2,33 +2,98 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::data::MAX_LOBES;
+use crate::data::{MAX_LOBES, Material};
 
 /// Name of the form, in the group's attributes.
 pub const MATERIAL_FORMAT: &str = "overpaint material";
 
 /// Version of the form, in the group's attributes.
-pub(super) const VERSION: u64 = 2;
+pub(super) const VERSION: u64 = 3;
 
 /// Rows and columns of a chunk, fewer where the plane has fewer.
-pub(super) const CHUNK: usize = 256;
+const CHUNK: u64 = 256;
 
-/// One array of the group: `[row][column]` or `[row][column][component]`.
+/// Values of a chunk of samples: 2 MiB of halves.
+const CHUNK_VALUES: u64 = 1 << 20;
+
+/// Lengths of the dimensions that differ from material to material.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lengths {
+    pub(super) plane: [usize; 2],
+    /// Of the local PCA, as are the next two; 0 without one.
+    pub(super) samples: usize,
+    pub(super) clusters: usize,
+    pub(super) components: usize,
+}
+
+impl Lengths {
+    pub(super) fn of(material: &Material) -> Self {
+        let [samples, clusters, components] =
+            material.lpca.as_ref().map_or([0; 3], |lpca| [lpca.pairs.len(), lpca.clusters, lpca.components]);
+        Self { plane: material.size(), samples, clusters, components }
+    }
+}
+
+/// A dimension of an array.
+#[derive(Debug, Clone, Copy)]
+enum Dimension {
+    Row,
+    Column,
+    Sample,
+    Cluster,
+    /// The mean and the eigenvectors of a cluster.
+    Term,
+    /// The weights of a cluster's eigenvectors.
+    Component,
+    /// One that every material has alike: its name and the names along it.
+    Of(&'static str, &'static [&'static str]),
+}
+
+impl Dimension {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Row => "row",
+            Self::Column => "column",
+            Self::Sample => "sample",
+            Self::Cluster => "cluster",
+            Self::Term => "term",
+            Self::Component => "component",
+            Self::Of(name, _) => name,
+        }
+    }
+
+    fn length(self, lengths: &Lengths) -> u64 {
+        let length = match self {
+            Self::Row => lengths.plane[1],
+            Self::Column => lengths.plane[0],
+            Self::Sample => lengths.samples,
+            Self::Cluster => lengths.clusters,
+            Self::Term => 1 + lengths.components,
+            Self::Component => lengths.components,
+            Self::Of(_, names) => names.len(),
+        };
+        length as u64
+    }
+}
+
+use Dimension::{Cluster, Column, Component, Of, Row, Sample, Term};
+
+/// One array of the group.
 pub(super) struct Layout {
     pub(super) name: &'static str,
-    /// Name of the third dimension and names of its components, if there is one.
-    pub(super) components: Option<(&'static str, &'static [&'static str])>,
+    /// Outermost first.
+    dimensions: &'static [Dimension],
     unit: &'static str,
     about: &'static str,
 }
 
-const XYZ: Option<(&str, &[&str])> = Some(("axis", &["x", "y", "z"]));
-const RGB: Option<(&str, &[&str])> = Some(("channel", &["R", "G", "B"]));
+const SCALAR: &[Dimension] = &[Row, Column];
+const XYZ: &[Dimension] = &[Row, Column, Of("axis", &["x", "y", "z"])];
+const CHANNEL: Dimension = Of("channel", &["R", "G", "B"]);
+const RGB: &[Dimension] = &[Row, Column, CHANNEL];
 
-const fn layout(
-    name: &'static str, components: Option<(&'static str, &'static [&'static str])>, unit: &'static str, about: &'static str,
-) -> Layout {
-    Layout { name, components, unit, about }
+const fn layout(name: &'static str, dimensions: &'static [Dimension], unit: &'static str, about: &'static str) -> Layout {
+    Layout { name, dimensions, unit, about }
 }
 
 const fn specular(name: &'static str) -> Layout {
@@ -36,36 +101,68 @@ const fn specular(name: &'static str) -> Layout {
 }
 
 const fn lobe(name: &'static str) -> Layout {
-    let parameters = Some(("parameter", &["C_x", "C_y", "C_z", "n"] as &[&str]));
-    layout(name, parameters, "1", "lobe (C_x l_x v_x + C_y l_y v_y + C_z l_z v_z)^n, Lafortune et al. 1997")
+    layout(
+        name,
+        &[Row, Column, Of("parameter", &["C_x", "C_y", "C_z", "n"])],
+        "1",
+        "lobe (C_x l_x v_x + C_y l_y v_y + C_z l_z v_z)^n, Lafortune et al. 1997",
+    )
 }
 
 pub(super) const HEIGHT: Layout =
-    layout("height", None, "texel widths", "height over the plane that the pictures are rectified to, positive outwards");
+    layout("height", SCALAR, "texel widths", "height over the plane that the pictures are rectified to, positive outwards");
 pub(super) const NORMAL: Layout = layout("normal", XYZ, "1", "unit normals of the height field");
 pub(super) const NORMAL_MEASURED: Layout = layout("normal_measured", XYZ, "1", "unit normals of photometric stereo, before integration");
-pub(super) const ALBEDO: Layout = layout("albedo", None, "reflectance", "albedo of photometric stereo");
+pub(super) const ALBEDO: Layout = layout("albedo", SCALAR, "reflectance", "albedo of photometric stereo");
 pub(super) const DIFFUSE: Layout = layout("diffuse", RGB, "reflectance", "rho_d");
 /// Of the first lobe, the second and the third.
 pub(super) const SPECULAR: [Layout; MAX_LOBES] = [specular("specular"), specular("specular_2"), specular("specular_3")];
 pub(super) const LOBE: [Layout; MAX_LOBES] = [lobe("lobe"), lobe("lobe_2"), lobe("lobe_3")];
 pub(super) const OBJECTIVE_WITHOUT_LOBE: Layout =
-    layout("fit_objective_without_lobe", None, "reflectance^2", "mean squared residual without any lobe");
-pub(super) const OBJECTIVE: Layout = layout("fit_objective", None, "reflectance^2", "mean squared residual at the end of the fit");
-pub(super) const ITERATIONS: Layout = layout("fit_iterations", None, "1", "steps of Levenberg-Marquardt that were tried");
+    layout("fit_objective_without_lobe", SCALAR, "reflectance^2", "mean squared residual without any lobe");
+pub(super) const OBJECTIVE: Layout = layout("fit_objective", SCALAR, "reflectance^2", "mean squared residual at the end of the fit");
+pub(super) const ITERATIONS: Layout = layout("fit_iterations", SCALAR, "1", "steps of Levenberg-Marquardt that were tried");
 pub(super) const STATUS: Layout = layout(
     "fit_status",
-    None,
+    SCALAR,
     "code",
     "0 out of iterations, 1 converged, 2 no specular part, 3 settled to rounding: no step lowers the objective in single precision, \
      4 too few valid samples: no lobe, 5 not fitted: the lobe is that of the representative texel",
 );
 
 pub(super) const MASKED: Layout =
-    layout("fit_masked", None, "1", "number of masked samples: measurements that were NaN, infinite or negative, which take no part");
+    layout("fit_masked", SCALAR, "1", "number of masked samples: measurements that were NaN, infinite or negative, which take no part");
+
+pub(super) const LPCA_CLUSTER: Layout =
+    layout("lpca_cluster", SCALAR, "1", "local PCA (Mueller, Meseth, Klein 2003): cluster of the texel");
+pub(super) const LPCA_WEIGHTS: Layout = layout(
+    "lpca_weights",
+    &[Row, Column, Component],
+    "1",
+    "local PCA: weights of terms 1, 2 and so on of the texel's cluster, of unit variance in it",
+);
+pub(super) const LPCA_TERMS: Layout = layout(
+    "lpca_terms",
+    &[Sample, Cluster, Term, CHANNEL],
+    "pi L / E",
+    "local PCA: term 0 is the cluster's mean, the others its eigenvectors times the standard deviations of their weights; the radiance of a \
+     texel in a sample is lpca_terms[sample, k, 0] + the sum over c of lpca_weights[row, column, c] lpca_terms[sample, k, 1 + c], \
+     k = lpca_cluster[row, column]",
+);
+pub(super) const LPCA_ERROR: Layout =
+    layout("lpca_error", SCALAR, "1", "local PCA: root of the sum of squared errors of the texel over that of its radiance's squares");
+pub(super) const LPCA_PAIRS: Layout = layout(
+    "lpca_pairs",
+    &[Sample, Of("direction", &["view", "light"])],
+    "index",
+    "local PCA: view and light of the sample, in the provenance's lists of views and lights",
+);
+
+/// Names of the arrays of the local PCA.
+pub(super) const LPCA_NAMES: [&str; 5] = [LPCA_CLUSTER.name, LPCA_WEIGHTS.name, LPCA_TERMS.name, LPCA_ERROR.name, LPCA_PAIRS.name];
 
 /// Names of all arrays.
-pub(super) const NAMES: [&str; 16] = [
+pub(super) const NAMES: [&str; 21] = [
     HEIGHT.name,
     NORMAL.name,
     NORMAL_MEASURED.name,
@@ -82,27 +179,40 @@ pub(super) const NAMES: [&str; 16] = [
     ITERATIONS.name,
     STATUS.name,
     MASKED.name,
+    LPCA_CLUSTER.name,
+    LPCA_WEIGHTS.name,
+    LPCA_TERMS.name,
+    LPCA_ERROR.name,
+    LPCA_PAIRS.name,
 ];
 
 impl Layout {
-    /// `[rows, columns]` or `[rows, columns, components]`.
-    pub(super) fn shape(&self, [width, height]: [usize; 2]) -> Vec<u64> {
-        let components = self.components.map(|(_, names)| names.len());
-        [Some(height), Some(width), components].into_iter().flatten().map(|side| side as u64).collect()
+    /// Lengths of the dimensions, outermost first.
+    pub(super) fn shape(&self, lengths: &Lengths) -> Vec<u64> {
+        self.dimensions.iter().map(|dimension| dimension.length(lengths)).collect()
     }
 
     /// Shape of one chunk.
-    pub(super) fn chunk(&self, [width, height]: [usize; 2]) -> Vec<u64> {
-        self.shape([width.min(CHUNK), height.min(CHUNK)])
+    pub(super) fn chunk(&self, lengths: &Lengths) -> Vec<u64> {
+        let inner = |depth: usize| self.dimensions[depth + 1..].iter().map(|dimension| dimension.length(lengths)).product::<u64>();
+        let side = |(depth, dimension): (usize, &Dimension)| {
+            let most = match dimension {
+                Row | Column => CHUNK,
+                Sample => (CHUNK_VALUES / inner(depth).max(1)).max(1),
+                Cluster | Term | Component | Of(..) => u64::MAX,
+            };
+            dimension.length(lengths).min(most)
+        };
+        self.dimensions.iter().enumerate().map(side).collect()
     }
 
     pub(super) fn dimensions(&self) -> Vec<&'static str> {
-        [Some("row"), Some("column"), self.components.map(|(dimension, _)| dimension)].into_iter().flatten().collect()
+        self.dimensions.iter().map(|dimension| dimension.name()).collect()
     }
 
     pub(super) fn attributes(&self) -> Map<String, Value> {
         let mut attributes = Map::from_iter([("unit".to_owned(), json!(self.unit)), ("description".to_owned(), json!(self.about))]);
-        if let Some((_, names)) = self.components {
+        if let Some(Of(_, names)) = self.dimensions.last() {
             attributes.insert("components".to_owned(), json!(names));
         }
         attributes
