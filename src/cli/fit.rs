@@ -109,8 +109,8 @@ impl Fit {
         };
         output::check_material(&self.output)?;
         let source = io::open_with(&self.source, &self.reading.options())?;
-        pipeline::check_fit(source.as_ref(), &settings)?;
         let session = session.open()?;
+        pipeline::check_fit(&session.gpu, source.as_ref(), &settings)?;
         let unfinished = Unfinished::begin(&self.output, &pipeline::fit_job(&session.gpu, source.as_ref(), &settings))?;
         let mut found = String::new();
         if !unfinished.is_complete() {

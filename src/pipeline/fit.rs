@@ -18,7 +18,7 @@ pub fn fit(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Pr
     fit_within(gpu, source, settings, Memory::default(), None, progress)
 }
 
-/// Recovers height, normals and per-texel reflectance of a source.
+/// Recovers height, normals and per-texel reflectance of a source, and its local PCA.
 ///
 /// Works in tiles sized from the adapter's limits and `memory`, and reads ahead of the adapter; the result does not depend on them. With
 /// `unfinished`, begun with [`fit_job`], finished tiles are kept there as they come, and those that an earlier run kept are not done again.
@@ -28,7 +28,7 @@ pub fn fit(gpu: &Gpu, source: &dyn Source, settings: &FitSettings, progress: &Pr
 pub fn fit_within(
     gpu: &Gpu, source: &dyn Source, settings: &FitSettings, memory: Memory, unfinished: Option<&Unfinished>, progress: &Progress,
 ) -> Result<Material, PipelineError> {
-    check_fit(source, settings)?;
+    check_fit(gpu, source, settings)?;
     let job = Job { gpu, source, memory, unfinished, progress };
     let geometry = geometry::recover(&job, settings)?;
     let stages = reflectance::Stages::new(gpu)?;
@@ -51,12 +51,15 @@ pub fn fit_within(
     Ok(material.checked()?)
 }
 
-/// Checks that `settings` are in range and fit the source: what [`fit_within`] asks first, for whoever begins a job before it.
+/// Checks that `settings` are in range and fit the source and the adapter: what [`fit_within`] asks first, for whoever begins a job before it.
 ///
 /// # Errors
-/// [`PipelineError`] if a setting is out of range, or the representative texel outside the plane.
-pub fn check_fit(source: &dyn Source, settings: &FitSettings) -> Result<(), PipelineError> {
+/// [`PipelineError`] if a setting is out of range, the representative texel outside the plane, or the local PCA larger than the adapter binds.
+pub fn check_fit(gpu: &Gpu, source: &dyn Source, settings: &FitSettings) -> Result<(), PipelineError> {
     settings.checked()?;
+    if let Some(settings) = &settings.lpca {
+        lpca::check(gpu, source, settings)?;
+    }
     let [width, height] = source.btf().size();
     match settings.representative {
         Some([column, row]) if column >= width || row >= height => Err(PipelineError::NoSuchTexel { column, row, width, height }),

@@ -4,6 +4,7 @@ pub mod directions;
 pub mod files;
 pub mod held;
 pub mod known;
+pub mod lines;
 pub mod local;
 pub mod lpca;
 pub mod material;

@@ -5,7 +5,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::{Space, Stages, Tiles};
+use super::{Pca, Stages};
 use crate::{
     gpu::{Buffer, Gpu},
     model::LpcaSettings,
@@ -38,8 +38,8 @@ pub struct Coordinates {
 
 impl Coordinates {
     /// Projects the texels to orthonormal `vectors` of the space. `what` names the result among those kept.
-    pub fn project(tiles: &mut Tiles<'_>, stages: &Stages, space: &Space, vectors: &[Vec<f64>], what: &str) -> Result<Self, PipelineError> {
-        space.check(tiles);
+    pub fn project(pca: &mut Pca<'_>, vectors: &[Vec<f64>], what: &str) -> Result<Self, PipelineError> {
+        let Pca { tiles, stages, space } = pca;
         let (gpu, progress) = (tiles.job().gpu, tiles.job().progress);
         let projectors = space.projectors(vectors);
         let flat = vec![0.0; space.values()];
@@ -86,19 +86,17 @@ impl Coordinates {
         Ok(vec![0.0; self.rank])
     }
 
-    /// Each texel's cluster, squared distance from its subspace, and weights in it `[texel][quad]`.
-    fn assign(
-        &self, gpu: &Gpu, progress: &Progress, stages: &Stages, subspaces: &Subspaces,
-    ) -> Result<(Vec<u32>, Vec<f32>, Vec<Buffer<[f32; 4]>>), PipelineError> {
-        let (mut clusters, mut residuals, mut weights) = (Vec::new(), Vec::new(), Vec::new());
+    /// Each texel to the nearest of `subspaces`.
+    fn assign(&self, gpu: &Gpu, progress: &Progress, stages: &Stages, subspaces: &Subspaces) -> Result<Assignment, PipelineError> {
+        let mut assignment = Assignment { cluster_of: Vec::new(), residuals: Vec::new(), weights: Vec::new() };
         for slice in &self.slices {
             let texels = slice.len() / (self.rank / 4);
             let found = run(gpu, progress, "lpca_assign", [texels, 0], |recorder| stages.assign.record(recorder, slice, subspaces))?;
-            clusters.append(&mut found.cluster.read(gpu)?);
-            residuals.append(&mut found.residuals.read(gpu)?);
-            weights.push(found.weights);
+            assignment.cluster_of.append(&mut found.cluster.read(gpu)?);
+            assignment.residuals.append(&mut found.residuals.read(gpu)?);
+            assignment.weights.push(found.weights);
         }
-        Ok((clusters, residuals, weights))
+        Ok(assignment)
     }
 
     /// The sums `[row][column]` of `lpca_covariance` of each cluster.
@@ -128,6 +126,16 @@ impl Coordinates {
     }
 }
 
+/// Texels given to subspaces.
+struct Assignment {
+    /// `[texel]`
+    cluster_of: Vec<u32>,
+    /// `[texel]` squared distance from the subspace.
+    residuals: Vec<f32>,
+    /// `[slice][texel][quad]` weights in the cluster.
+    weights: Vec<Buffer<[f32; 4]>>,
+}
+
 /// Where an alternation ended.
 pub struct Alternated {
     pub subspaces: Vec<Subspace>,
@@ -142,18 +150,18 @@ pub struct Alternated {
 
 /// Alternates from `start`, or from the best of some starts at random, until the error settles.
 pub fn alternate(
-    tiles: &Tiles<'_>, stages: &Stages, space: &Space, coordinates: &Coordinates, settings: &LpcaSettings, start: Option<Vec<Subspace>>,
+    pca: &Pca<'_>, coordinates: &Coordinates, settings: &LpcaSettings, start: Option<Vec<Subspace>>,
 ) -> Result<Alternated, PipelineError> {
-    let (gpu, progress) = (tiles.job().gpu, tiles.job().progress);
+    let (gpu, progress) = (pca.tiles.job().gpu, pca.tiles.job().progress);
     let clusters = (settings.clusters as usize).min(coordinates.texels());
     let alternation = Alternation {
         gpu,
         progress,
-        stages,
+        stages: &pca.stages,
         coordinates,
         clusters,
         components: settings.components as usize,
-        total: space.energy(coordinates.energy, coordinates.texels()),
+        total: pca.space.energy(coordinates.energy, coordinates.texels()),
     };
     if let Some(start) = start {
         return alternation.run(start, settings.iterations as usize);
@@ -199,7 +207,7 @@ impl Alternation<'_> {
         progress.expect(iterations);
         loop {
             let on_gpu = Subspaces::upload(gpu, &subspaces, coordinates.rank, quads)?;
-            let (mut cluster_of, residuals, weights) = coordinates.assign(gpu, progress, stages, &on_gpu)?;
+            let Assignment { mut cluster_of, residuals, weights } = coordinates.assign(gpu, progress, stages, &on_gpu)?;
             let left: f64 = residuals.iter().copied().map(f64::from).sum::<f64>() + coordinates.left_out * coordinates.energy;
             let error = if total > 0.0 { (left / total).sqrt() } else { 0.0 };
             let is_settled = errors.last().is_some_and(|&last| last - error <= LpcaSettings::SETTLED * last);
@@ -231,7 +239,7 @@ impl Alternation<'_> {
                 return Ok(seeds);
             }
             let newest = Subspaces::upload(gpu, &seeds[seeds.len() - 1..], coordinates.rank, 1)?;
-            let (_, from_newest, _) = coordinates.assign(gpu, progress, stages, &newest)?;
+            let from_newest = coordinates.assign(gpu, progress, stages, &newest)?.residuals;
             for (distance, new) in distances.iter_mut().zip(from_newest) {
                 *distance = distance.min(new);
             }

@@ -3,7 +3,7 @@
 //! Clusters are found once for each number of them and lifted with the most components that are tried; their spectra then tell what every smaller
 //! number would leave.
 
-use super::{Coordinates, Run, alternate, lift};
+use super::{Coordinates, Pca, alternate, lift};
 use crate::{
     data::{Lpca, LpcaCandidate},
     model::{LpcaSettings, LpcaTarget},
@@ -15,25 +15,24 @@ const COMPONENTS: [u32; 6] = [2, 4, 6, 8, 12, 16];
 
 /// The settings with the numbers that their target chooses, and what it chose from, the smallest first.
 pub fn choose(
-    run: &mut Run<'_>, coordinates: &Coordinates, settings: &LpcaSettings,
+    pca: &mut Pca<'_>, coordinates: &Coordinates, settings: &LpcaSettings,
 ) -> Result<(LpcaSettings, Vec<LpcaCandidate>), PipelineError> {
     let Some(target) = settings.target else { return Ok((*settings, Vec::new())) };
-    let Run { tiles, stages, space } = run;
-    let (gpu, texels, samples) = (tiles.job().gpu, tiles.texels(), tiles.samples());
+    let (gpu, texels, samples) = (pca.tiles.job().gpu, pca.tiles.texels(), pca.tiles.samples());
     let bytes = |clusters: u32, components: u32| Lpca::adapter_bytes(texels, samples, clusters as usize, components as usize);
     let is_possible = |clusters: u32, components: u32| {
         let terms = Lpca::adapter_bytes(0, samples, clusters as usize, components as usize);
         let is_small = !matches!(target, LpcaTarget::Size(most) if bytes(clusters, components) > most);
         terms <= gpu.max_array_bytes() && is_small && clusters as usize <= texels
     };
-    let total = space.energy(coordinates.energy, texels);
+    let total = pca.space.energy(coordinates.energy, texels);
     let mut candidates = Vec::new();
     for clusters in CLUSTERS {
         let possible: Vec<u32> = COMPONENTS.into_iter().filter(|&components| is_possible(clusters, components)).collect();
         let Some(&most) = possible.last() else { continue };
         let tried = LpcaSettings { clusters, components: most, ..*settings };
-        let found = alternate(tiles, stages, space, coordinates, &tried, None)?;
-        let lifted = lift(tiles, stages, space, coordinates, &found, &format!("lpca lift of {clusters} clusters"))?;
+        let found = alternate(pca, coordinates, &tried, None)?;
+        let lifted = lift(pca, coordinates, &found, &format!("lpca lift of {clusters} clusters"))?;
         candidates.extend(possible.into_iter().map(|components| {
             let left: f64 = lifted.iter().map(|cluster| cluster.left(components as usize)).sum();
             LpcaCandidate {

@@ -7,7 +7,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::{Alternated, Coordinates, Space, Stages, Tiles, kept};
+use super::{Alternated, Coordinates, Pca, Space, kept};
 use crate::{
     data::OCTET,
     pipeline::{PipelineError, tiles::run},
@@ -38,9 +38,8 @@ impl Cluster {
 }
 
 /// The clusters of an alternation. `what` names the sums among what is kept.
-pub fn lift(
-    tiles: &mut Tiles<'_>, stages: &Stages, space: &Space, coordinates: &Coordinates, found: &Alternated, what: &str,
-) -> Result<Vec<Cluster>, PipelineError> {
+pub fn lift(pca: &mut Pca<'_>, coordinates: &Coordinates, found: &Alternated, what: &str) -> Result<Vec<Cluster>, PipelineError> {
+    let Pca { tiles, stages, space } = pca;
     let (gpu, progress) = (tiles.job().gpu, tiles.job().progress);
     let clusters = found.subspaces.len();
     let components = found.subspaces.iter().map(|(_, eigenvectors)| eigenvectors.len()).max().unwrap_or_default();

@@ -43,7 +43,7 @@ use crate::{
 pub fn lpca(
     gpu: &Gpu, source: &dyn Source, settings: &LpcaSettings, memory: Memory, unfinished: Option<&Unfinished>, progress: &Progress,
 ) -> Result<Lpca, PipelineError> {
-    settings.checked()?;
+    check(gpu, source, settings)?;
     recover(&Job { gpu, source, memory, unfinished, progress }, settings)
 }
 
@@ -68,9 +68,8 @@ impl Stages {
     }
 }
 
-/// As [`lpca`].
+/// As [`lpca`], of settings that were checked.
 pub(super) fn recover(job: &Job<'_>, settings: &LpcaSettings) -> Result<Lpca, PipelineError> {
-    check_size(job, settings)?;
     let btf = job.source.btf();
     let stages = Stages::new(job.gpu)?;
     let mut tiles = Tiles::new(job, reserved(job, settings));
@@ -78,20 +77,19 @@ pub(super) fn recover(job: &Job<'_>, settings: &LpcaSettings) -> Result<Lpca, Pi
     let space = Space::new(job.gpu, btf, &sketch, settings.weighting)?;
     let vectors = sketch::basis(&space, &sketch, settings);
     drop(sketch);
-    let coordinates = Coordinates::project(&mut tiles, &stages, &space, &vectors, "lpca coordinates")?;
-    let mut run = Run { tiles, stages, space };
-    let (settings, candidates) = choice::choose(&mut run, &coordinates, settings)?;
+    let mut pca = Pca { tiles, stages, space };
+    let coordinates = Coordinates::project(&mut pca, &vectors, "lpca coordinates")?;
+    let (settings, candidates) = choice::choose(&mut pca, &coordinates, settings)?;
     let (found, clusters) = match settings.method {
         LpcaMethod::Basis => {
-            let found = alternate(&run.tiles, &run.stages, &run.space, &coordinates, &settings, None)?;
-            let clusters = lift(&mut run.tiles, &run.stages, &run.space, &coordinates, &found, "lpca lift")?;
+            let found = alternate(&pca, &coordinates, &settings, None)?;
+            let clusters = lift(&mut pca, &coordinates, &found, "lpca lift")?;
             (found, clusters)
         }
-        LpcaMethod::Direct => run.direct(&coordinates, &settings)?,
+        LpcaMethod::Direct => pca.direct(&coordinates, &settings)?,
     };
-    let Run { mut tiles, stages, space } = run;
     let components = settings.components as usize;
-    let stored = store(&mut tiles, &stages, &space, &clusters, &found.cluster_of, components)?;
+    let stored = store(&mut pca, &clusters, &found.cluster_of, components)?;
     let [columns, rows] = btf.size();
     let lpca = Lpca {
         pairs: btf.pairs().to_vec(),
@@ -114,33 +112,32 @@ pub(super) fn recover(job: &Job<'_>, settings: &LpcaSettings) -> Result<Lpca, Pi
 }
 
 /// What every step needs.
-struct Run<'a> {
+struct Pca<'a> {
     tiles: Tiles<'a>,
     stages: Stages,
     space: Space,
 }
 
-impl Run<'_> {
+impl Pca<'_> {
     /// Alternates in the span of the clusters themselves, from one alternation in the basis.
     fn direct(&mut self, coordinates: &Coordinates, settings: &LpcaSettings) -> Result<(Alternated, Vec<Cluster>), PipelineError> {
-        let Self { tiles, stages, space } = self;
         let once = LpcaSettings { iterations: 1, ..*settings };
-        let mut found = alternate(tiles, stages, space, coordinates, &once, None)?;
-        let mut clusters = lift(tiles, stages, space, coordinates, &found, "lpca lift 0")?;
+        let mut found = alternate(self, coordinates, &once, None)?;
+        let mut clusters = lift(self, coordinates, &found, "lpca lift 0")?;
         let mut errors: Vec<f64> = Vec::new();
         for round in 1..=settings.iterations {
-            let means: Vec<Vec<f64>> = clusters.iter().map(|cluster| space.vector(&cluster.mean)).collect();
+            let means: Vec<Vec<f64>> = clusters.iter().map(|cluster| self.space.vector(&cluster.mean)).collect();
             let all: Vec<Vec<f64>> = means.iter().chain(clusters.iter().flat_map(|cluster| &cluster.directions)).cloned().collect();
             let span = sketch::orthonormal(&all, all.len(), |_, _| false);
-            let coordinates = Coordinates::project(tiles, stages, space, &span, &format!("lpca coordinates {round}"))?;
+            let coordinates = Coordinates::project(self, &span, &format!("lpca coordinates {round}"))?;
             let inside = |vector: &Vec<f64>| {
                 let mut own: Vec<f64> = span.iter().map(|axis| axis.iter().zip(vector).map(|(a, b)| a * b).sum()).collect();
                 own.resize(coordinates.rank, 0.0);
                 own
             };
             let start = means.iter().zip(&clusters).map(|(mean, cluster)| (inside(mean), cluster.directions.iter().map(inside).collect()));
-            found = alternate(tiles, stages, space, &coordinates, &once, Some(start.collect()))?;
-            clusters = lift(tiles, stages, space, &coordinates, &found, &format!("lpca lift {round}"))?;
+            found = alternate(self, &coordinates, &once, Some(start.collect()))?;
+            clusters = lift(self, &coordinates, &found, &format!("lpca lift {round}"))?;
             // Of the clusters that were lifted last, which their span holds.
             let error = found.errors[0];
             let is_settled = errors.last().is_some_and(|&last| last - error <= LpcaSettings::SETTLED * last);
@@ -154,13 +151,14 @@ impl Run<'_> {
     }
 }
 
-/// Checks that a renderer may bind the terms.
-fn check_size(job: &Job<'_>, settings: &LpcaSettings) -> Result<(), PipelineError> {
-    let samples = job.source.btf().pairs().len();
+/// Checks that the settings are in range, and that a renderer may bind the terms.
+pub(super) fn check(gpu: &Gpu, source: &dyn Source, settings: &LpcaSettings) -> Result<(), PipelineError> {
+    settings.checked()?;
+    let samples = source.btf().pairs().len();
     let (clusters, components) = (settings.clusters as usize, settings.components as usize);
-    let (bytes, limit) = (Lpca::adapter_bytes(0, samples, clusters, components), job.gpu.max_array_bytes());
+    let (bytes, limit) = (Lpca::adapter_bytes(0, samples, clusters, components), gpu.max_array_bytes());
     if settings.target.is_none() && bytes > limit {
-        let adapter = job.gpu.adapter().name.clone();
+        let adapter = gpu.adapter().name.clone();
         return Err(PipelineError::LpcaTooLarge { clusters, components, samples, bytes, adapter, limit });
     }
     Ok(())

@@ -11,11 +11,14 @@ use crate::{
     data::OCTET,
     model::LpcaSettings,
     pipeline::{PipelineError, tiles::run},
-    stage::{Lifted, Line, Members},
+    stage::{Lifted, Line, Members, count},
 };
 
 /// Sums more than the basis has vectors.
 const OVERSAMPLING: usize = 16;
+
+/// Ranks that are chosen are multiples of this, as the adapter fills them up to.
+const STEP: usize = 16;
 
 /// Eigenvalues below this part of the largest are rounding of the sums.
 const NOISE: f64 = 1e-10;
@@ -31,14 +34,14 @@ pub struct Sketch {
 /// Sketches the texels in one pass.
 pub fn sketch(tiles: &mut Tiles<'_>, stages: &Stages, settings: &LpcaSettings) -> Result<Sketch, PipelineError> {
     let texels = tiles.texels();
-    let wanted = (settings.rank.unwrap_or(settings.auto_rank()) + OVERSAMPLING as u32) as usize;
+    let wanted = settings.rank.unwrap_or(settings.auto_rank()) as usize + OVERSAMPLING;
     let buckets = wanted.min(texels);
     let lines = 3 * tiles.samples().div_ceil(OCTET);
     let values = lines * OCTET;
     let mut random = fastrand::Rng::with_seed(u64::from(settings.seed));
     // As many sums as texels: each is one.
     let bucket_of: Vec<u32> =
-        (0..texels).map(|texel| if buckets == texels { index(texel) } else { random.u32(0..index(buckets)) }).collect();
+        (0..texels).map(|texel| if buckets == texels { count(texel) } else { random.u32(0..count(buckets)) }).collect();
     let signs: Vec<f32> = (0..texels).map(|_| if random.bool() { 1.0 } else { -1.0 }).collect();
 
     // [bucket][Σ x, Σ ±x, number][value]
@@ -85,7 +88,7 @@ pub fn basis(space: &Space, sketch: &Sketch, settings: &LpcaSettings) -> Vec<Vec
         // What the sketch itself left out is spread evenly over its sums; this much more lies in the vectors that are left.
         #[expect(clippy::cast_precision_loss, reason = "numbers of vectors")]
         let left = if rank < all { left * all as f64 / (all - rank) as f64 } else { 0.0 };
-        settings.rank.is_none() && rank.is_multiple_of(OVERSAMPLING) && left <= LpcaSettings::LEFT_OUT
+        settings.rank.is_none() && rank.is_multiple_of(STEP) && left <= LpcaSettings::LEFT_OUT
     };
     orthonormal(&vectors, most, is_enough)
 }
@@ -115,8 +118,4 @@ pub fn orthonormal(vectors: &[Vec<f64>], most: usize, is_enough: impl Fn(f64, us
         eigen.eigenvectors[(row, index)] / eigen.eigenvalues[index].sqrt()
     });
     (matrix * combination).column_iter().map(|column| column.iter().copied().collect()).collect()
-}
-
-fn index(number: usize) -> u32 {
-    crate::stage::count(number)
 }

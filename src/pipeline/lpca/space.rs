@@ -1,6 +1,6 @@
 //! The space in which a texel is one vector: all of its samples and channels, in lines as the adapter has them.
 
-use super::{Tiles, sketch::Sketch};
+use super::sketch::Sketch;
 use crate::{
     data::{Btf, OCTET},
     gpu::{Buffer, Gpu},
@@ -68,11 +68,6 @@ impl Space {
         #[expect(clippy::cast_precision_loss, reason = "a number of texels")]
         let texels = texels as f64;
         about_centre + texels * self.product(&self.centre, &self.centre)
-    }
-
-    /// The adapter's tiles hold this space's vectors.
-    pub fn check(&self, tiles: &Tiles<'_>) {
-        debug_assert_eq!(self.samples, tiles.samples(), "samples of tiles");
     }
 }
 

@@ -37,20 +37,21 @@ impl<'a> Tiles<'a> {
     /// What `work` finds for each texel, `[texel of the plane][value]` with `width` values each. `work` is given a tile and its texels' indices in the
     /// plane. Finished tiles are kept for a later run under the name `what`.
     pub fn map<T: Pod>(
-        &mut self, what: &str, width: usize, mut work: impl FnMut(&Gathered, &[usize]) -> Result<Vec<T>, PipelineError>,
+        &mut self, what: &str, width: usize, work: impl FnMut(&Gathered, &[usize]) -> Result<Vec<T>, PipelineError>,
     ) -> Result<Vec<T>, PipelineError> {
-        self.run(true, what, width, &mut work)
+        self.run(true, what, width, work)
     }
 
     /// Gives `work` each tile and its texels' indices in the plane, in a fixed order.
     pub fn for_each(&mut self, mut work: impl FnMut(&Gathered, &[usize]) -> Result<(), PipelineError>) -> Result<(), PipelineError> {
-        self.run(false, "", 0, &mut |gathered, texels| work(gathered, texels).map(|()| Vec::<u8>::new()))?;
+        self.run(false, "", 0, |gathered, texels| work(gathered, texels).map(|()| Vec::<u8>::new()))?;
         Ok(())
     }
 
-    fn run<T: Pod>(
-        &mut self, is_kept: bool, what: &str, width: usize, work: &mut dyn FnMut(&Gathered, &[usize]) -> Result<Vec<T>, PipelineError>,
-    ) -> Result<Vec<T>, PipelineError> {
+    fn run<T: Pod, F>(&mut self, is_kept: bool, what: &str, width: usize, mut work: F) -> Result<Vec<T>, PipelineError>
+    where
+        F: FnMut(&Gathered, &[usize]) -> Result<Vec<T>, PipelineError>,
+    {
         let columns = self.job.source.btf().size()[0];
         if self.is_complete {
             let mut all = vec![T::zeroed(); self.texels() * width];

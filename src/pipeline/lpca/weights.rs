@@ -4,7 +4,7 @@ use half::f16;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::{Cluster, Space, Stages, Tiles};
+use super::{Cluster, Pca, Space};
 use crate::{
     data::Map,
     pipeline::{PipelineError, tiles::run},
@@ -25,9 +25,8 @@ pub struct Stored {
 }
 
 /// Rounds the first `components` directions of the clusters to halves, and finds each texel's weights in them.
-pub fn store(
-    tiles: &mut Tiles<'_>, stages: &Stages, space: &Space, clusters: &[Cluster], cluster_of: &[u32], components: usize,
-) -> Result<Stored, PipelineError> {
+pub fn store(pca: &mut Pca<'_>, clusters: &[Cluster], cluster_of: &[u32], components: usize) -> Result<Stored, PipelineError> {
+    let Pca { tiles, stages, space } = pca;
     let (gpu, progress) = (tiles.job().gpu, tiles.job().progress);
     let quads = components.div_ceil(4);
     // [cluster][term][value]
