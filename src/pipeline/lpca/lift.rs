@@ -102,6 +102,10 @@ fn cluster(space: &Space, sums: &[&[f32]], weights: &DMatrix<f64>, energy: f64) 
     let eigen = (&centred * centred.transpose()).symmetric_eigen();
     let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
     let spread: Vec<usize> = (0..components).filter(|&index| eigen.eigenvalues[index] > NOISE * largest).collect();
+    if spread.is_empty() {
+        // A single member, or members that are all alike.
+        return Cluster { members, mean, directions: Vec::new(), energies: Vec::new(), energy };
+    }
     // What the weights explain of the members is W^T D^(-1/2) U^T S, S being the sums of members by weights.
     let decorrelate = DMatrix::from_fn(spread.len(), components, |row, column| {
         eigen.eigenvectors[(column, spread[row])] / eigen.eigenvalues[spread[row]].sqrt()
