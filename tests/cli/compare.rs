@@ -10,7 +10,7 @@ use super::{overpaint, refused};
 
 crate::suite! {
     plain: a_folder_that_is_something_else_is_left;
-    gpu: a_comparison_has_its_figures_and_pictures, what_does_not_go_together_is_refused;
+    gpu: a_comparison_has_its_figures_and_pictures, pictures_come_from_the_local_pca, what_does_not_go_together_is_refused;
 }
 
 /// A rendered source of 24 x 16 texels and the material that is fitted to it.
@@ -101,6 +101,29 @@ fn a_comparison_has_its_figures_and_pictures(gpu: &Gpu) {
     succeed(gpu, folder, &[&["fit", "btf.zarr", "-o", "part.zarr"], &region[..]].concat());
     succeed(gpu, folder, &[&["compare", "btf.zarr", "part.zarr", "-o", "part", "--texel", "8,6"], &region[..]].concat());
     assert_eq!(read_json(&folder.join("part/compare.json"))["size"], serde_json::json!([9, 7]));
+}
+
+fn pictures_come_from_the_local_pca(gpu: &Gpu) {
+    let folder = fitted(gpu);
+    let read = |file: &str| image::open(folder.path().join(file)).expect("is PNG").into_rgb8();
+    let reconstruct = |more: &[&str], file: &str| {
+        let directions = ["reconstruct", "material.zarr", "--view", "20,100", "--light", "30,10", "-o", file];
+        succeed(gpu, folder.path(), &[&directions, more].concat());
+        read(file)
+    };
+    let alone = reconstruct(&["--model", "lpca"], "alone.png");
+    assert_eq!(alone.dimensions(), (24, 16));
+    assert_ne!(alone, reconstruct(&["--model", "svbrdf"], "svbrdf.png"));
+    // One pixel a texel: neither softens.
+    for samples in ["1", "4"] {
+        assert_eq!(alone, reconstruct(&["--model", "lpca", "--texel-samples", samples], "sharp.png"));
+    }
+    for samples in ["5", "9", "25"] {
+        assert_ne!(alone, reconstruct(&["--model", "lpca", "--texel-samples", samples], "soft.png"));
+    }
+    let strip = reconstruct(&["--model", "lpca", "--sweep", "3", "--to-view", "80,100"], "strip.png");
+    assert_eq!(strip.dimensions(), (72, 16));
+    assert!(alone.enumerate_pixels().all(|(x, y, pixel)| strip.get_pixel(x, y) == pixel), "the strip begins with it");
 }
 
 fn what_does_not_go_together_is_refused(gpu: &Gpu) {
