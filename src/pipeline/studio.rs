@@ -24,14 +24,14 @@ pub enum Subject {
     /// A material's reflectance on its height field.
     Surface {
         /// Its maps.
-        surface: Surface,
+        surface: Box<Surface>,
         /// Which effects of the height field the pictures have.
         relief: Relief,
     },
     /// A material's local PCA.
     Compressed {
         /// Its arrays.
-        btf: CompressedBtf,
+        btf: Box<CompressedBtf>,
         /// How the pictures are interpolated between texels.
         texel_samples: TexelSamples,
     },
@@ -147,13 +147,13 @@ impl<'g> Studio<'g> {
     /// it does not fit the adapter.
     pub fn subject(&self, material: &Material, appearance: Appearance, progress: &Progress) -> Result<Subject, PipelineError> {
         match appearance {
-            Appearance::Svbrdf { relief } => Ok(Subject::Surface { surface: self.surface(material, None, progress)?, relief }),
+            Appearance::Svbrdf { relief } => Ok(Subject::Surface { surface: Box::new(self.surface(material, None, progress)?), relief }),
             Appearance::Lpca { texel_samples } => {
                 let provenance = &material.provenance;
                 let lpca = material.lpca.as_ref().ok_or_else(|| PipelineError::NoLpca { source_name: provenance.source.clone() })?;
                 let boundary = provenance.settings.boundary;
                 let btf = CompressedBtf::upload(self.gpu, lpca, &provenance.views, &provenance.lights, boundary)?;
-                Ok(Subject::Compressed { btf, texel_samples })
+                Ok(Subject::Compressed { btf: Box::new(btf), texel_samples })
             }
         }
     }

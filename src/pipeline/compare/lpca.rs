@@ -14,12 +14,18 @@ use crate::{
 /// Pictures of a way between directions.
 const STEPS: u32 = 9;
 
-/// Ways between directions: a name, and (θ, φ) in degrees of view and light at the begin and at the end.
-const WAYS: [(&str, [[(f64, f64); 2]; 2]); 4] = [
-    ("light falls", [[(0.0, 0.0), (0.0, 10.0)], [(0.0, 0.0), (75.0, 10.0)]]),
-    ("light turns", [[(0.0, 0.0), (55.0, 0.0)], [(0.0, 0.0), (55.0, 60.0)]]),
-    ("view falls", [[(0.0, 250.0), (40.0, 100.0)], [(75.0, 250.0), (40.0, 100.0)]]),
-    ("both turn", [[(52.0, 180.0), (52.0, 0.0)], [(52.0, 240.0), (52.0, 60.0)]]),
+/// A way between directions: (θ, φ) in degrees at the begin and at the end.
+struct Way {
+    name: &'static str,
+    view: [(f64, f64); 2],
+    light: [(f64, f64); 2],
+}
+
+const WAYS: [Way; 4] = [
+    Way { name: "light falls", view: [(0.0, 0.0); 2], light: [(0.0, 10.0), (75.0, 10.0)] },
+    Way { name: "light turns", view: [(0.0, 0.0); 2], light: [(55.0, 0.0), (55.0, 60.0)] },
+    Way { name: "view falls", view: [(0.0, 250.0), (75.0, 250.0)], light: [(40.0, 100.0); 2] },
+    Way { name: "both turn", view: [(52.0, 180.0), (52.0, 240.0)], light: [(52.0, 0.0), (52.0, 60.0)] },
 ];
 
 /// All of it but the arrays.
@@ -33,10 +39,10 @@ pub fn json(lpca: &Lpca) -> Value {
 /// How it settled, and the table of what it was chosen from.
 pub fn learned(lpca: &Lpca, report: &mut Report<'_>) -> Result<(), PipelineError> {
     let Learned { errors, candidates, .. } = &lpca.learned;
-    if !errors.is_empty() {
+    if let [first, _, ..] = errors[..] {
         let caption = format!(
-            "What {} clusters of {} eigenvectors leave after each assignment of texels, √(Σ (R − L)² / Σ L²), with the samples weighted as they \
-             were when it was fitted. In all: {lpca}.",
+            "What {} clusters of {} eigenvectors leave after each assignment of texels but the first, √(Σ (R − L)² / Σ L²), with the samples \
+             weighted as they were when it was fitted. The first, to what the alternation begins with, leaves {first:.4}. In all: {lpca}.",
             lpca.clusters, lpca.components
         );
         report.drawing("iterations", "Error by iteration", &caption, &plot::iterations(errors)?)?;
@@ -60,16 +66,15 @@ pub fn learned(lpca: &Lpca, report: &mut Report<'_>) -> Result<(), PipelineError
 
 /// Ways between measured directions, picture by picture.
 pub fn between(job: &Job<'_>, subject: &Subject) -> Result<Figure, PipelineError> {
-    let direction = |(theta, phi): (f64, f64)| Direction::from_degrees(theta, phi);
-    let row = |(name, [start, end]): &(&str, [[(f64, f64); 2]; 2])| {
+    let row = |Way { name, view, light }: &Way| {
+        let [view, light] = [view, light].map(|ends| ends.map(|(theta, phi)| Direction::from_degrees(theta, phi)));
         let cells = (0..STEPS).map(|step| {
-            let part = f64::from(step) / f64::from(STEPS - 1);
-            let [view, light] = [0, 1].map(|of| direction(start[of]).toward(direction(end[of]), part));
+            let [view, light] = [view, light].map(|[start, end]| start.toward(end, f64::from(step) / f64::from(STEPS - 1)));
             let picture = job.studio.picture(subject, view, light, job.progress)?;
             Ok(Cell { picture, note: String::new() })
         });
-        let [[view, light], [end_view, end_light]] = [start, end].map(|directions| directions.map(direction));
-        let label = format!("{name}: view {view} to {end_view}, light {light} to {end_light}");
+        let named = |[start, end]: [Direction; 2]| if start == end { start.to_string() } else { format!("{start} to {end}") };
+        let label = format!("{name}: view {}, light {}", named(view), named(light));
         Ok(Row { label, cells: cells.collect::<Result<_, PipelineError>>()? })
     };
     Ok(Figure {

@@ -59,11 +59,11 @@ pub fn svg(comparison: &Comparison) -> Result<String, PipelineError> {
     Ok(text)
 }
 
-/// Errors after each iteration, as SVG.
+/// Errors after each iteration but the first, as SVG: that one is so much larger that it would hide the others.
 pub fn iterations(errors: &[f64]) -> Result<String, PipelineError> {
     let mut text = String::new();
     let area = SVGBackend::with_string(&mut text, (SIZE.0 / 2, SIZE.1)).into_drawing_area();
-    let points = (1_u32..).map(f64::from).zip(errors.iter().copied()).collect();
+    let points = (1_u32..).map(f64::from).zip(errors.iter().copied()).skip(1).collect();
     let axes = Axes {
         title: "relative RMS error",
         over: "iteration",
@@ -71,7 +71,8 @@ pub fn iterations(errors: &[f64]) -> Result<String, PipelineError> {
         range: 1e-3,
         marks: [|value| format!("{value:.0}"), |value| format!("{value:.4}")],
     };
-    chart(&area, &axes, vec![("left after assignment", VIEW, points)]).map_err(|message| PipelineError::Plot { message })?;
+    chart(&area, &axes, &[Line { name: "left after assignment", color: VIEW, points }])
+        .map_err(|message| PipelineError::Plot { message })?;
     drop(area);
     Ok(text)
 }
@@ -87,8 +88,9 @@ fn panel(area: &DrawingArea<SVGBackend<'_>, Shift>, quantity: &Quantity, compari
         range: quantity.range,
         marks: [|theta| format!("{theta:.0}"), quantity.mark],
     };
-    let lines = vec![("view", VIEW, points(&comparison.by_view_elevation)), ("light", LIGHT, points(&comparison.by_light_elevation))];
-    chart(area, &axes, lines)
+    let line = |name, color, groups: &[AtElevation]| Line { name, color, points: points(groups) };
+    let lines = [line("view", VIEW, &comparison.by_view_elevation), line("light", LIGHT, &comparison.by_light_elevation)];
+    chart(area, &axes, &lines)
 }
 
 /// What a chart shows.
@@ -104,11 +106,15 @@ struct Axes {
     marks: [fn(&f64) -> String; 2],
 }
 
-/// Lines with their names and colours.
-fn chart(
-    area: &DrawingArea<SVGBackend<'_>, Shift>, axes: &Axes, lines: Vec<(&'static str, RGBColor, Vec<(f64, f64)>)>,
-) -> Result<(), String> {
-    let values = || lines.iter().flat_map(|(_, _, points)| points);
+/// A line of a chart, and its name.
+struct Line {
+    name: &'static str,
+    color: RGBColor,
+    points: Vec<(f64, f64)>,
+}
+
+fn chart(area: &DrawingArea<SVGBackend<'_>, Shift>, axes: &Axes, lines: &[Line]) -> Result<(), String> {
+    let values = || lines.iter().flat_map(|line| &line.points);
     let [low, high] = values()
         .map(|&(_, value)| value)
         .chain(axes.shown)
@@ -141,12 +147,12 @@ fn chart(
         .light_line_style(WHITE)
         .draw()
         .map_err(|error| failed(&error))?;
-    for (label, color, points) in lines {
-        let style = ShapeStyle::from(&color).stroke_width(2);
+    for Line { name, color, points } in lines {
+        let style = ShapeStyle::from(color).stroke_width(2);
         chart
             .draw_series(LineSeries::new(points.iter().copied(), style))
             .map_err(|error| failed(&error))?
-            .label(label)
+            .label(*name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
         chart.draw_series(points.iter().map(|&point| Circle::new(point, 3, style.filled()))).map_err(|error| failed(&error))?;
     }
