@@ -1,4 +1,5 @@
-// A line is one octet of one channel: eight values of the vector that a texel's samples make. Needs octet.
+// A line is one octet of one channel: eight values of the vector that a texel's samples make.
+#import octet
 
 // What the values of a line are above a centre; 0 where they are masked.
 fn deviation(line: vec4<u32>, centre: Octet) -> Octet {

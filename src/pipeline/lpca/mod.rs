@@ -3,7 +3,7 @@
 //! In four passes over the source, which stays on the adapter between them if it fits:
 //! 1. [`sketch`]: a random sketch of all texels, and from it a global orthonormal basis;
 //! 2. [`alternation`]: coordinates in the basis, where assignment and PCA alternate at a hundredth of the cost;
-//! 3. [`lift`]: the clusters' means and eigenvectors in full;
+//! 3. [`mod@lift`]: the clusters' means and eigenvectors in full;
 //! 4. [`weights`]: the texels' weights in what is stored, and its error.
 //!
 //! The direct method repeats 2 and 3 instead of alternating, with the span of the clusters themselves as the basis, in which their distances are exact.
