@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::{
     data::{Block, Direction, RowOrder, Transfer},
-    model::{Boundary, SpecularScale, StereoMethod, SurfaceMode},
+    model::{Boundary, SpecularScale, StereoMethod, SurfaceMode, TexelSamples},
 };
 
 /// Largest side of a picture: the largest texture that WebGPU guarantees.
@@ -141,6 +141,12 @@ pub fn boundary() -> impl TypedValueParser<Value = Boundary> {
         "mirror" => Boundary::Mirror,
         _ => Boundary::Periodic,
     })
+}
+
+/// [`TexelSamples`] by their number.
+pub fn texel_samples() -> impl TypedValueParser<Value = TexelSamples> {
+    PossibleValuesParser::new(["1", "4", "5", "9", "25"])
+        .map(|count| TexelSamples::ALL.into_iter().find(|samples| samples.count().to_string() == count).unwrap_or_default())
 }
 
 /// [`SpecularScale`] by its name.

@@ -7,6 +7,7 @@ use clap::Args;
 use super::{
     CliError, arguments,
     memory::{AdapterMemoryArguments, MemoryArguments},
+    model::{Model, misplaced},
     output,
     reading::ReadingArguments,
     say,
@@ -14,7 +15,7 @@ use super::{
 };
 use crate::{
     io,
-    model::Relief,
+    model::{Appearance, Relief, TexelSamples},
     pipeline::{self, AtElevation, CompareSettings, Comparison},
 };
 
@@ -23,6 +24,7 @@ use crate::{
 #[command(after_help = "\
 Examples:
   overpaint compare cloth.zip cloth.zarr -o cloth-compared
+  overpaint compare cloth.zip cloth.zarr --model lpca -o cloth-compressed
   overpaint compare cloth.zip corner.zarr -o corner-compared --region 0,0,64x64 --texel 20,31
 
 DIR gets compare.html, its plot and pictures, and all figures as compare.json.")]
@@ -34,6 +36,9 @@ pub struct Compare {
     /// Folder for compare.html, compare.json and the pictures
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// What the reconstructions are made from
+    #[arg(long, value_name = "MODEL", value_enum, default_value_t = Model::Svbrdf)]
+    model: Model,
     /// Reconstruct as if the material were flat: no displacement, no shadows
     #[arg(long)]
     no_relief: bool,
@@ -50,9 +55,17 @@ pub struct Compare {
 
 impl Compare {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
-        let defaults = CompareSettings::default();
-        let relief = if self.no_relief { Relief { displace: false, shadow: false, ..defaults.relief } } else { defaults.relief };
-        let settings = CompareSettings { relief, texel: self.texel };
+        let appearance = match self.model {
+            Model::Svbrdf if self.no_relief => {
+                Appearance::Svbrdf { relief: Relief { displace: false, shadow: false, ..Relief::measured() } }
+            }
+            Model::Svbrdf => Appearance::svbrdf(),
+            Model::Lpca if self.no_relief || self.texel.is_some() => {
+                return Err(misplaced("--no-relief and --texel tell of the reflectance; leave them out with --model lpca"));
+            }
+            Model::Lpca => Appearance::Lpca { texel_samples: TexelSamples::One },
+        };
+        let settings = CompareSettings { appearance, texel: self.texel };
         output::check_comparison(&self.output)?;
         let material = io::material::load(&self.material)?;
         let source = io::open_with(&self.source, &self.reading.options())?;

@@ -14,6 +14,7 @@ mod import;
 mod info;
 mod lpca;
 mod memory;
+mod model;
 mod output;
 mod reading;
 mod reconstruct;

@@ -28,6 +28,13 @@ impl Direction {
         Self { theta: vector.x.hypot(vector.y).atan2(vector.z), phi }
     }
 
+    /// The direction a `part` of the way from here to `end`, both angles changing evenly.
+    #[must_use]
+    pub fn toward(self, end: Self, part: f64) -> Self {
+        let between = |start: f64, end: f64| start + part * (end - start);
+        Self { theta: between(self.theta, end.theta), phi: between(self.phi, end.phi) }
+    }
+
     /// (θ, φ) in degrees.
     #[must_use]
     pub fn degrees(self) -> (f64, f64) {

@@ -1,5 +1,6 @@
 //! Physics and settings as plain types and f64 functions. No wgpu.
 
+mod appearance;
 mod boundary;
 mod coat;
 pub mod color;
@@ -19,6 +20,7 @@ pub mod stereo;
 mod synth;
 mod texel_samples;
 
+pub use appearance::Appearance;
 pub use boundary::Boundary;
 pub use coat::Coat;
 pub use fourier::Fourier;

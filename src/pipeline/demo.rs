@@ -10,7 +10,7 @@ use crate::{
     data::{Btf, Direction, Map, Material, PlaneView},
     gpu::Gpu,
     io::{self, Source},
-    model::{FitSettings, Layer, Paint, Pattern, Relief, color::linear_from_srgb, pigments},
+    model::{Appearance, FitSettings, Layer, LpcaSettings, Paint, Pattern, Relief, TexelSamples, color::linear_from_srgb, pigments},
 };
 
 /// Name of the report in the demo's folder.
@@ -49,7 +49,8 @@ pub fn demo(gpu: &Gpu, folder: &Path, progress: &Progress) -> Result<(), Pipelin
     let target = folder.join(MATERIAL);
     io::material::check_target(&target)?;
     let source = io::open_zip_bytes("weave64", SAMPLE)?;
-    let material = fit(gpu, source.as_ref(), &FitSettings::default(), progress)?;
+    let settings = FitSettings { lpca: Some(LpcaSettings::default()), ..FitSettings::default() };
+    let material = fit(gpu, source.as_ref(), &settings, progress)?;
     io::material::save(&target, &material)?;
 
     let job = Job { source: source.as_ref(), material: &material, studio: Studio::new(gpu)?, progress };
@@ -128,22 +129,25 @@ impl Job<'_> {
     fn comparison(&self, stem: &'static str, title: &'static str, view: (f64, f64)) -> Result<Figure, PipelineError> {
         let btf = self.source.btf();
         let view = nearest(btf.views(), view);
-        let mut rows = ["original", "positive difference", "negative difference", "reconstruction"]
+        let mut rows = ["original", "positive difference", "negative difference", "reconstruction", "local PCA"]
             .map(|label| Row { label: label.to_owned(), cells: Vec::new() });
         let mut columns = Vec::new();
-        let surface = self.studio.surface(self.material, None, self.progress)?;
+        let subject = |appearance| self.studio.subject(self.material, appearance, self.progress);
+        let (reflectance, lpca) = (subject(Appearance::svbrdf())?, subject(Appearance::Lpca { texel_samples: TexelSamples::One })?);
         for theta in LIGHTS {
             let light = nearest(btf.lights(), (theta, 0.0));
             let original = self.original(view, light)?;
-            let found = self.studio.reconstruct(&surface, btf.views()[view], btf.lights()[light], Relief::measured(), self.progress)?;
-            let error = relative_rms(&original, &found);
-            let pictures = [difference(&original, &found), difference(&found, &original), found];
-            for (row, picture) in rows.iter_mut().zip([original].into_iter().chain(pictures)) {
-                row.cells.push(Cell { picture, note: String::new() });
-            }
-            if let Some(cell) = rows[3].cells.last_mut() {
-                cell.note = format!("relative RMS {error:.3}");
-            }
+            let picture = |subject| self.studio.picture(subject, btf.views()[view], btf.lights()[light], self.progress);
+            let (found, compressed) = (picture(&reflectance)?, picture(&lpca)?);
+            let note = |picture: &_| format!("relative RMS {:.3}", relative_rms(&original, picture));
+            let cells = [
+                Cell { note: String::new(), picture: original.clone() },
+                Cell { note: String::new(), picture: difference(&original, &found) },
+                Cell { note: String::new(), picture: difference(&found, &original) },
+                Cell { note: note(&found), picture: found },
+                Cell { note: note(&compressed), picture: compressed },
+            ];
+            rows.iter_mut().zip(cells).for_each(|(row, cell)| row.cells.push(cell));
             columns.push(format!("light {}", btf.lights()[light]));
         }
         Ok(Figure {
@@ -152,8 +156,9 @@ impl Job<'_> {
             caption: format!(
                 "View {}; the light stands at the right. Positive difference is what the original has more than the reconstruction, negative \
                  difference what it has less, in linear light and not amplified. The relative RMS is that of the difference over that of the \
-                 original, in linear light too.",
-                btf.views()[view]
+                 original, in linear light too. The local PCA has the original's own parallax and shadows, in {:.1} MB.",
+                btf.views()[view],
+                self.material.lpca.as_ref().map_or(0.0, |lpca| lpca.bytes() as f64 / 1e6)
             ),
             columns,
             rows: rows.into(),

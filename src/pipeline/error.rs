@@ -62,6 +62,12 @@ pub enum PipelineError {
         /// The material's.
         material_size: [usize; 2],
     },
+    /// A local PCA that was left out.
+    #[error("the material of \"{source_name}\" has no local PCA; fit it again without --no-lpca, or leave out --model lpca")]
+    NoLpca {
+        /// Name of the source.
+        source_name: String,
+    },
     /// A texel outside the plane.
     #[error("there is no texel {column},{row}: the plane has columns 0 to {} and rows 0 to {}; name one of them", width - 1, height - 1)]
     NoSuchTexel {

@@ -3,10 +3,10 @@
 use super::{PipelineError, Progress, tiles::run};
 use crate::{
     data::{Direction, Map, Material, PlaneView},
-    gpu::{Buffer, Gpu},
-    model::{Coat, Layer, Pattern, Relief},
+    gpu::{Buffer, Gpu, GpuError, Recorder},
+    model::{Appearance, Coat, Layer, Pattern, Relief, TexelSamples},
     render::Plane,
-    stage::{self, HeightField, Surface},
+    stage::{self, CompressedBtf, HeightField, Surface},
 };
 
 /// A layer of paint and where it is drawn.
@@ -18,6 +18,36 @@ pub struct Painting {
     pub pattern: Pattern,
 }
 
+/// What a studio takes pictures of, in adapter memory.
+#[derive(Debug)]
+pub enum Subject {
+    /// A material's reflectance on its height field.
+    Surface {
+        /// Its maps.
+        surface: Box<Surface>,
+        /// Which effects of the height field the pictures have.
+        relief: Relief,
+    },
+    /// A material's local PCA.
+    Compressed {
+        /// Its arrays.
+        btf: Box<CompressedBtf>,
+        /// How the pictures are interpolated between texels.
+        texel_samples: TexelSamples,
+    },
+}
+
+impl Subject {
+    /// Columns and rows of the texel plane.
+    fn size(&self) -> [usize; 2] {
+        match self {
+            Self::Surface { surface, .. } => surface.field.size,
+            Self::Compressed { btf, .. } => btf.size(),
+        }
+        .map(|texels| texels as usize)
+    }
+}
+
 /// The stages that make pictures, on one device.
 #[derive(Debug)]
 pub struct Studio<'g> {
@@ -27,6 +57,7 @@ pub struct Studio<'g> {
     paint_relief: stage::PaintRelief,
     normals: stage::Normals,
     reconstruct: stage::Reconstruct,
+    reconstruct_lpca: stage::ReconstructLpca,
     plane: Plane,
 }
 
@@ -43,6 +74,7 @@ impl<'g> Studio<'g> {
             paint_relief: stage::PaintRelief::new(gpu)?,
             normals: stage::Normals::new(gpu)?,
             reconstruct: stage::Reconstruct::new(gpu)?,
+            reconstruct_lpca: stage::ReconstructLpca::new(gpu)?,
             plane: Plane::new(gpu)?,
         })
     }
@@ -108,14 +140,73 @@ impl<'g> Studio<'g> {
         Ok(Map::new(width, height, picture.read(self.gpu)?)?)
     }
 
+    /// The part of a bare material that `appearance` names.
+    ///
+    /// # Errors
+    /// [`PipelineError::NoLpca`] if the material has no local PCA and it was asked for, [`PipelineError::Stage`] or [`PipelineError::Gpu`] if
+    /// it does not fit the adapter.
+    pub fn subject(&self, material: &Material, appearance: Appearance, progress: &Progress) -> Result<Subject, PipelineError> {
+        match appearance {
+            Appearance::Svbrdf { relief } => Ok(Subject::Surface { surface: Box::new(self.surface(material, None, progress)?), relief }),
+            Appearance::Lpca { texel_samples } => {
+                let provenance = &material.provenance;
+                let lpca = material.lpca.as_ref().ok_or_else(|| PipelineError::NoLpca { source_name: provenance.source.clone() })?;
+                let boundary = provenance.settings.boundary;
+                let btf = CompressedBtf::upload(self.gpu, lpca, &provenance.views, &provenance.lights, boundary)?;
+                Ok(Subject::Compressed { btf: Box::new(btf), texel_samples })
+            }
+        }
+    }
+
+    /// As [`Self::reconstruct`], of either part of a material.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if the picture does not fit the adapter.
+    pub fn picture(
+        &self, subject: &Subject, view: Direction, light: Direction, progress: &Progress,
+    ) -> Result<Map<[f32; 4]>, PipelineError> {
+        let [width, height] = subject.size();
+        let picture = run(self.gpu, progress, "reconstruct", [width * height, 1], |recorder| {
+            let picture = self.gpu.fresh("reconstructed picture", width * height)?;
+            self.record_picture(recorder, subject, view, light, &picture)?;
+            Ok::<_, GpuError>(picture)
+        })?;
+        Ok(Map::new(width, height, picture.read(self.gpu)?)?)
+    }
+
+    /// `count` pictures side by side, view and light in even steps from those of `start` to those of `end`.
+    ///
+    /// # Errors
+    /// As [`Self::picture`].
+    pub fn strip(
+        &self, subject: &Subject, start: [Direction; 2], end: [Direction; 2], count: usize, progress: &Progress,
+    ) -> Result<Map<[f32; 4]>, PipelineError> {
+        #[expect(clippy::cast_precision_loss, reason = "a few pictures")]
+        let part = |index: usize| index as f64 / count.saturating_sub(1).max(1) as f64;
+        let pictures = (0..count).map(|index| {
+            let [view, light] = [0, 1].map(|of| start[of].toward(end[of], part(index)));
+            self.picture(subject, view, light, progress)
+        });
+        let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
+        let [width, height] = subject.size();
+        Ok(Map::from_fn(count * width, height, |column, row| pictures[column / width][(column % width, row)]))
+    }
+
+    /// The picture behind [`Self::picture`], for those that record many at once.
+    pub(super) fn record_picture(
+        &self, recorder: &mut Recorder<'_>, subject: &Subject, view: Direction, light: Direction, picture: &Buffer<[f32; 4]>,
+    ) -> Result<(), GpuError> {
+        match subject {
+            Subject::Surface { surface, relief } => self.reconstruct.record_into(recorder, surface, view, light, *relief, picture),
+            Subject::Compressed { btf, texel_samples } => {
+                self.reconstruct_lpca.record_into(recorder, btf, *texel_samples, view, light, picture)
+            }
+        }
+    }
+
     /// The device.
     pub(super) fn gpu(&self) -> &'g Gpu {
         self.gpu
-    }
-
-    /// The stage behind [`Self::reconstruct`], for those that record many pictures at once.
-    pub(super) fn reconstruct_stage(&self) -> &stage::Reconstruct {
-        &self.reconstruct
     }
 
     /// The material as a plane in space: linear RGBA, premultiplied, `[row][column]`.

@@ -10,7 +10,7 @@ use super::{overpaint, refused};
 
 crate::suite! {
     plain: a_folder_that_is_something_else_is_left;
-    gpu: a_comparison_has_its_figures_and_pictures, what_does_not_go_together_is_refused;
+    gpu: a_comparison_has_its_figures_and_pictures, pictures_come_from_the_local_pca, what_does_not_go_together_is_refused;
 }
 
 /// A rendered source of 24 x 16 texels and the material that is fitted to it.
@@ -84,11 +84,46 @@ fn a_comparison_has_its_figures_and_pictures(gpu: &Gpu) {
     let flat = read_json(&folder.join("compared/compare.json"));
     assert_eq!((&flat["relief"]["displace"], &flat["relief"]["shadow"]), (&false.into(), &false.into()));
     assert_ne!(flat["overall"]["relative_rms"], overall["relative_rms"]);
+    // Its local PCA, which holds all of it and so is nearer.
+    succeed(gpu, folder, &["compare", "btf.zarr", "material.zarr", "-o", "compared", "--model", "lpca"]);
+    let compressed = read_json(&folder.join("compared/compare.json"));
+    assert_eq!((&compressed["model"], &compressed["texel_samples"], &compressed["relief"]), (&"lpca".into(), &1.into(), &Value::Null));
+    let error = |figures: &Value| figures["overall"]["relative_rms"].as_f64().expect("is a number");
+    assert!(error(&compressed) < 0.5 * overall["relative_rms"].as_f64().expect("is a number"), "{}", compressed["overall"]);
+    // What the fit says that it leaves; compare holds radiance to 0 and above.
+    let left = compressed["material"]["lpca"]["learned"]["relative_rms"].as_f64().expect("is a number");
+    assert!(error(&compressed) <= 1.001 * left, "{left} in {}", compressed["overall"]);
+    for file in ["iterations.svg", "between.png"] {
+        assert!(fs::metadata(folder.join("compared").join(file)).is_ok_and(|there| there.len() > 0), "{file}");
+    }
     // A part of the source and the material of that part.
     let region = ["--region", "8,4,9x7", "--every", "2"];
     succeed(gpu, folder, &[&["fit", "btf.zarr", "-o", "part.zarr"], &region[..]].concat());
     succeed(gpu, folder, &[&["compare", "btf.zarr", "part.zarr", "-o", "part", "--texel", "8,6"], &region[..]].concat());
     assert_eq!(read_json(&folder.join("part/compare.json"))["size"], serde_json::json!([9, 7]));
+}
+
+fn pictures_come_from_the_local_pca(gpu: &Gpu) {
+    let folder = fitted(gpu);
+    let read = |file: &str| image::open(folder.path().join(file)).expect("is PNG").into_rgb8();
+    let reconstruct = |more: &[&str], file: &str| {
+        let directions = ["reconstruct", "material.zarr", "--view", "20,100", "--light", "30,10", "-o", file];
+        succeed(gpu, folder.path(), &[&directions, more].concat());
+        read(file)
+    };
+    let alone = reconstruct(&["--model", "lpca"], "alone.png");
+    assert_eq!(alone.dimensions(), (24, 16));
+    assert_ne!(alone, reconstruct(&["--model", "svbrdf"], "svbrdf.png"));
+    // One pixel a texel: neither softens.
+    for samples in ["1", "4"] {
+        assert_eq!(alone, reconstruct(&["--model", "lpca", "--texel-samples", samples], "sharp.png"));
+    }
+    for samples in ["5", "9", "25"] {
+        assert_ne!(alone, reconstruct(&["--model", "lpca", "--texel-samples", samples], "soft.png"));
+    }
+    let strip = reconstruct(&["--model", "lpca", "--sweep", "3", "--to-view", "80,100"], "strip.png");
+    assert_eq!(strip.dimensions(), (72, 16));
+    assert!(alone.enumerate_pixels().all(|(x, y, pixel)| strip.get_pixel(x, y) == pixel), "the strip begins with it");
 }
 
 fn what_does_not_go_together_is_refused(gpu: &Gpu) {
@@ -97,6 +132,12 @@ fn what_does_not_go_together_is_refused(gpu: &Gpu) {
         let adapter = ["--adapter", &gpu.adapter().name];
         overpaint(folder.path(), &[&["compare", "btf.zarr", "material.zarr", "-o", "compared"], arguments, &adapter].concat())
     };
+    succeed(gpu, folder.path(), &["fit", "btf.zarr", "-o", "bare.zarr", "--no-lpca"]);
+    let bare = ["bare.zarr", "--model", "lpca", "--adapter", &gpu.adapter().name];
+    let directions = ["--view", "0,0", "--light", "0,0", "-o", "seen.png"];
+    for arguments in [[&["reconstruct"], &bare[..], &directions].concat(), [&["compare", "btf.zarr"], &bare[..], &["-o", "compared"]].concat()] {
+        refused(&overpaint(folder.path(), &arguments), 1, "has no local PCA; fit it again without --no-lpca");
+    }
     refused(&compare(&["--region", "0,0,8x5"]), 1, "has 8 x 5 texels and the material 24 x 16");
     refused(&compare(&["--texel", "24,3"]), 1, "there is no texel 24,3: the plane has columns 0 to 23 and rows 0 to 15");
     assert!(!folder.path().join("compared").exists(), "nothing is left behind");

@@ -103,6 +103,9 @@ fn reconstructions_are_images_of_the_texel_plane(gpu: &Gpu) {
         succeed(gpu, &["reconstruct", MATERIAL, "--view", "23.5,100", "--light", "41,33.3", "-o", file]);
         holds_a_picture(&demonstrated(gpu).join(file), [64, 64]);
     }
+    // Side by side on a way over the hemisphere.
+    succeed(gpu, &["reconstruct", MATERIAL, "--view", "0,0", "--light", "5,90", "--sweep", "3", "--to-light", "75,90", "-o", "strip.png"]);
+    holds_a_picture(&demonstrated(gpu).join("strip.png"), [192, 64]);
 }
 
 fn renders_have_the_size_asked_for(gpu: &Gpu) {

@@ -34,6 +34,14 @@ const OUT_OF_RANGE: &[(&[&str], &str)] = &[
     (&["reconstruct", "m", "--view", "30", "--light", "0,0", "-o", "a.png"], "expected THETA,PHI"),
     (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.jpg"], "ends in .png"),
     (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a"], "ends in .png"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--model", "phong"], "invalid value 'phong'"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--model", "lpca", "--texel-samples", "16"], "invalid value '16'"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--texel-samples", "9"], "is for --model lpca"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--sweep", "1"], "1 is not in 2..=256"),
+    (&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--sweep", "4", "--to-light", "90,0"], "THETA must be from 0"),
+    (&["compare", "s", "m", "-o", "c", "--model", "btf"], "invalid value 'btf'"),
+    (&["compare", "s", "m", "-o", "c", "--model", "lpca", "--no-relief"], "leave them out with --model lpca"),
+    (&["compare", "s", "m", "-o", "c", "--model", "lpca", "--texel", "1,2"], "leave them out with --model lpca"),
     (&["render", "m", "--size", "0x0", "-o", "a.png"], "expected WxH"),
     (&["render", "m", "--size", "512", "-o", "a.png"], "expected WxH"),
     (&["render", "m", "--size", "8193x1", "-o", "a.png"], "expected WxH"),
@@ -85,6 +93,7 @@ fn what_belongs_together_is_asked_for_together() {
     refuse(&["render", "m"], "required arguments were not provided");
     refuse(&["render", "m", "--paint", "viridian", "-o", "a.png"], "  --thickness <D>\n");
     refuse(&["render", "m", "--pattern", "splash", "-o", "a.png"], "  --paint <NAME>\n");
+    refuse(&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--to-light", "30,0"], "  --sweep <N>\n");
     refuse(&["info", "m", "--timings", "t.json"], "leave them out here");
     refuse(&["adapters", "--adapter", "x"], "leave them out here");
 }

@@ -1,17 +1,17 @@
 use half::f16;
 use overpaint::{
-    data::{Direction, Grid, Map, Material},
+    data::{Direction, Grid, LpcaCandidate, Map, Material},
     gpu::Gpu,
-    model::{HeightField, Relief, Synth, SynthReflectance},
+    model::{Appearance, Boundary, HeightField, Relief, Synth, SynthReflectance, TexelSamples},
     pipeline::{CompareSettings, Comparison, Memory, PipelineError, Progress, Studio, Synthetic, compare, compare_into},
     reference,
 };
 
-use crate::support::{Worst, held::Held, hold, random::Random};
+use crate::support::{Worst, held::Held, hold, lpca, random::Random};
 
 crate::suite! {
     gpu: a_material_reconstructs_its_own_pictures, figures_are_those_of_all_values_in_f64, figures_do_not_depend_on_memory, a_darker_source_finds_the_material_too_bright,
-        relief_can_be_left_out, scattered_lights_are_grouped, there_may_be_nothing_to_compare, what_does_not_go_together_is_refused;
+        relief_can_be_left_out, a_local_pca_reconstructs_what_it_was_made_from, a_strip_is_its_pictures, scattered_lights_are_grouped, there_may_be_nothing_to_compare, what_does_not_go_together_is_refused;
 }
 
 const SIZE: [usize; 2] = [23, 17];
@@ -138,11 +138,72 @@ fn relief_can_be_left_out(gpu: &Gpu) {
     let material = material(gpu);
     let source = reconstructed(gpu, &material, 1.0);
     let relief = Relief { displace: false, shadow: false, ..Relief::measured() };
-    let settings = CompareSettings { relief, texel: Some([22, 16]) };
+    let settings = CompareSettings { appearance: Appearance::Svbrdf { relief }, texel: Some([22, 16]) };
     let found = compare(gpu, &source, &material, &settings, Memory::default(), &Progress::new(gpu.adapter())).expect("compares");
     assert!(found.overall.relative_rms.is_some_and(|error| error > 0.05), "{found:?}");
     let expected: Vec<_> = source.pictures.iter().map(|picture| Some(picture[(22, 16)].map(f16::to_f32))).collect();
     assert_eq!(found.texel, expected);
+}
+
+/// The material with a local PCA of random terms for all pairs of [`source`]: what the pairs look like has nothing to do with its reflectance.
+fn compressed(gpu: &Gpu) -> Material {
+    let mut material = material(gpu);
+    let (views, lights) = (directions("0:1,30:4,60:4"), directions("0:1,40:6,70:6"));
+    let mut lpca = lpca::random(&mut Random::new(3), SIZE, lpca::product(views.len(), lights.len()), [5, 3]);
+    lpca.learned.errors = vec![0.2, 0.1, 0.09];
+    lpca.learned.candidates = vec![LpcaCandidate { clusters: 5, components: 3, bytes: lpca.bytes(), error: 0.0909 }];
+    (material.provenance.views, material.provenance.lights, material.lpca) = (views, lights, Some(lpca));
+    material
+}
+
+const NEAREST: Appearance = Appearance::Lpca { texel_samples: TexelSamples::One };
+
+fn a_local_pca_reconstructs_what_it_was_made_from(gpu: &Gpu) {
+    let material = compressed(gpu);
+    let lpca = material.lpca.as_ref().expect("is there");
+    let twin = reference::CompressedBtf::new(lpca, &material.provenance.views, &material.provenance.lights, Boundary::Periodic).expect("fits");
+    let source = source(|view, light| {
+        reference::reconstruct_lpca(&twin, TexelSamples::One, view, light).map(|rgb| rgb.map(f16::from_f64))
+    });
+    let settings = CompareSettings { appearance: NEAREST, texel: None };
+    let (folder, progress) = (tempfile::tempdir().expect("is made"), Progress::new(gpu.adapter()));
+    let found = compare_into(gpu, &source, &material, &settings, Memory::default(), folder.path(), &progress).expect("compares");
+    // As that of a material's own pictures.
+    hold("compare: a local PCA's own pictures, relative RMS", found.overall.relative_rms.expect("is lit"), 2.8e-4);
+    let said = |file: &str| std::fs::read_to_string(folder.path().join(file)).expect("is there");
+    let figures: serde_json::Value = serde_json::from_str(&said("compare.json")).expect("is JSON");
+    assert_eq!((&figures["model"], &figures["texel_samples"]), (&"lpca".into(), &1.into()));
+    assert_eq!(figures["material"]["lpca"]["learned"]["errors"], serde_json::json!([0.2, 0.1, 0.09]));
+    let html = said("compare.html");
+    for part in ["iterations.svg", "Between measured directions", "between.png", "What it was chosen from", "0.0909", "5 clusters"] {
+        assert!(html.contains(part), "{part}");
+    }
+    assert!(said("iterations.svg").contains("iteration") && folder.path().join("between.png").is_file());
+
+    let bare = Material { lpca: None, ..material };
+    let refused = compare(gpu, &source, &bare, &settings, Memory::default(), &progress).expect_err("has none");
+    assert!(matches!(refused, PipelineError::NoLpca { .. }), "{refused}");
+}
+
+fn a_strip_is_its_pictures(gpu: &Gpu) {
+    let (studio, progress) = (Studio::new(gpu).expect("builds"), Progress::new(gpu.adapter()));
+    let material = compressed(gpu);
+    let degrees = Direction::from_degrees;
+    for appearance in [NEAREST, Appearance::svbrdf()] {
+        let subject = studio.subject(&material, appearance, &progress).expect("fits");
+        let strip = studio.strip(&subject, [degrees(0.0, 40.0), degrees(10.0, 0.0)], [degrees(60.0, 40.0), degrees(10.0, 360.0)], 4, &progress);
+        let strip = strip.expect("fits");
+        assert_eq!([strip.width(), strip.height()], [4 * SIZE[0], SIZE[1]]);
+        for index in 0..4 {
+            let (view, light) = (degrees(20.0 * index as f64, 40.0), degrees(10.0, 120.0 * index as f64));
+            let alone = studio.picture(&subject, view, light, &progress).expect("fits");
+            let part = Map::from_fn(SIZE[0], SIZE[1], |column, row| strip[(index * SIZE[0] + column, row)]);
+            // Angles are rounded differently on the way.
+            let values = |picture: &Map<[f32; 4]>| picture.values().iter().flatten().map(|value| f64::from(*value)).collect::<Vec<_>>();
+            let differing = values(&part).into_iter().zip(values(&alone)).filter(|(a, b)| (a - b).abs() > 1e-4).count();
+            hold("compare: share of a strip that differs from its pictures", differing as f64 / strip.values().len() as f64, 2e-3);
+        }
+    }
 }
 
 /// More angles than a grid has rings.

@@ -7,7 +7,7 @@ use super::{elevations::Elevations, measure::Sums, texel::Framed};
 use crate::{
     data::{Btf, Direction, Map},
     gpu::AdapterSummary,
-    model::Relief,
+    model::Appearance,
 };
 
 /// Pairs and texels that are named as the worst.
@@ -104,8 +104,9 @@ pub struct Comparison {
     pub source: String,
     /// Columns and rows.
     pub size: [usize; 2],
-    /// Which effects of the height field the reconstructions have.
-    pub relief: Relief,
+    /// What the reconstructions are made from.
+    #[serde(flatten)]
+    pub appearance: Appearance,
     /// The adapter that computed it.
     pub adapter: AdapterSummary,
     /// Version of overpaint.
@@ -132,7 +133,7 @@ pub struct Comparison {
     /// L of the texel that was asked for in each pair, none where it is masked.
     #[serde(skip)]
     pub texel: Vec<Option<[f32; 3]>>,
-    /// The frames of that texel in each pair.
+    /// The frames of that texel's reflectance in each pair; none of a local PCA.
     #[serde(skip)]
     pub framed: Vec<Framed>,
 }

@@ -20,8 +20,8 @@ use crate::{
     data::{Block, Map},
     gpu::Gpu,
     io::Source,
-    pipeline::{Memory, PipelineError, Progress, Studio, tiles::run},
-    stage::{Originals, PictureError, PictureSums, Surface},
+    pipeline::{Memory, PipelineError, Progress, Studio, Subject, tiles::run},
+    stage::{Originals, PictureError, PictureSums},
 };
 
 /// Pairs whose errors a texel adds up on the adapter, in single precision.
@@ -72,13 +72,13 @@ pub struct Measured {
     pub texels: Map<[f64; 2]>,
     /// The texel asked for in each pair; none where it is masked.
     pub texel: Vec<Option<[f32; 3]>>,
-    /// The frames of the texel asked for in each pair.
+    /// The frames of the reflectance of the texel asked for in each pair; none of a local PCA.
     pub framed: Vec<Framed>,
 }
 
 /// Compares every pair of `source` with its reconstruction.
 pub fn measure(
-    studio: &Studio<'_>, surface: &Surface, source: &dyn Source, settings: &CompareSettings, memory: Memory, progress: &Progress,
+    studio: &Studio<'_>, subject: &Subject, source: &dyn Source, settings: &CompareSettings, memory: Memory, progress: &Progress,
 ) -> Result<Measured, PipelineError> {
     let (gpu, btf) = (studio.gpu(), source.btf());
     let (samples, texels) = (btf.pairs().len(), btf.texels());
@@ -123,7 +123,7 @@ pub fn measure(
                     let originals = Originals::upload(gpu, halves, texels)?;
                     for (index, sample) in range.clone().enumerate() {
                         let (view, light) = btf.directions(sample);
-                        studio.reconstruct_stage().record_into(recorder, surface, view, light, settings.relief, &picture)?;
+                        studio.record_picture(recorder, subject, view, light, &picture)?;
                         errors.record(recorder, &originals, index, &picture, &texel_sums)?;
                     }
                     errors.record_sums(recorder, &originals)
@@ -141,8 +141,8 @@ pub fn measure(
         Ok::<_, PipelineError>(())
     })?;
     let [width, height] = btf.size();
-    if let Some(at) = settings.texel {
-        found.framed = texel::framed(gpu, surface, btf, at, settings.relief, progress)?;
+    if let (Some(at), Subject::Surface { surface, relief }) = (settings.texel, subject) {
+        found.framed = texel::framed(gpu, surface, btf, at, *relief, progress)?;
     }
     Ok(Measured { texels: Map::new(width, height, of_texels)?, ..found })
 }

@@ -2,6 +2,7 @@
 
 mod elevations;
 mod figures;
+mod lpca;
 mod measure;
 mod pictures;
 mod plot;
@@ -19,7 +20,7 @@ use crate::{
     data::Material,
     gpu::Gpu,
     io::{self, IoError, Source},
-    model::Relief,
+    model::Appearance,
 };
 
 /// Names of the figures and of the report in a comparison's folder.
@@ -32,8 +33,8 @@ const FORMAT: &str = "overpaint comparison";
 /// How a material is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CompareSettings {
-    /// Which effects of the height field the reconstructions have.
-    pub relief: Relief,
+    /// What the reconstructions are made from.
+    pub appearance: Appearance,
     /// Column and row of a texel whose measurement is kept.
     pub texel: Option<[usize; 2]>,
 }
@@ -41,29 +42,30 @@ pub struct CompareSettings {
 impl Default for CompareSettings {
     /// Reconstructions as [`Studio::reconstruct`] makes them of a measurement; no texel.
     fn default() -> Self {
-        Self { relief: Relief::measured(), texel: None }
+        Self { appearance: Appearance::svbrdf(), texel: None }
     }
 }
 
 /// Compares the reconstruction of every pair of `source` with its original. The result does not depend on `memory`.
 ///
 /// # Errors
-/// [`PipelineError`] if source and material differ in size, there is no such texel, the source cannot be read, or the adapter fails.
+/// [`PipelineError`] if source and material differ in size, there is no such texel, the material lacks what it is to be made from, the source
+/// cannot be read, or the adapter fails.
 pub fn compare(
     gpu: &Gpu, source: &dyn Source, material: &Material, settings: &CompareSettings, memory: Memory, progress: &Progress,
 ) -> Result<Comparison, PipelineError> {
     check_pair(source, material, settings)?;
     let studio = Studio::new(gpu)?;
     let start = Instant::now();
-    let surface = studio.surface(material, None, progress)?;
-    let measured = measure::measure(&studio, &surface, source, settings, memory, progress)?;
+    let subject = studio.subject(material, settings.appearance, progress)?;
+    let measured = measure::measure(&studio, &subject, source, settings, memory, progress)?;
     let btf = source.btf();
     let Figures { overall, masked, by_view_elevation, by_light_elevation, by_view_and_light_elevation, worst_pairs, worst_texels, texels } =
         Figures::new(btf, &measured.pairs, &measured.texels);
     Ok(Comparison {
         source: btf.name().to_owned(),
         size: btf.size(),
-        relief: settings.relief,
+        appearance: settings.appearance,
         adapter: gpu.adapter().clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         seconds: start.elapsed().as_secs_f64(),
@@ -95,7 +97,7 @@ pub fn compare_into(
     let provenance = &material.provenance;
     let made = json!({
         "source": provenance.source, "adapter": provenance.adapter, "version": provenance.version, "settings": provenance.settings,
-        "choice": material.choice,
+        "choice": material.choice, "lpca": material.lpca.as_ref().map(lpca::json),
     });
     // First, so that a run that is killed leaves a folder that is known.
     io::write(&folder.join(JSON), format!("{:#}\n", comparison.json(&made)).as_bytes())?;

@@ -3,17 +3,17 @@
 use super::{
     AtElevation, CompareSettings, Comparison, Quality,
     elevations::Elevations,
-    plot, radiance,
+    lpca, plot, radiance,
     texel::{self, Measurement},
 };
 use crate::{
-    data::{Direction, Map, Material},
+    data::{Direction, Lpca, Map, Material},
     io::Source,
+    model::{Appearance, Relief},
     pipeline::{
-        PipelineError, Progress, Studio,
+        PipelineError, Progress, Studio, Subject,
         report::{Cell, Figure, Report, Row},
     },
-    stage::Surface,
 };
 
 /// Factor of the differences that are shown.
@@ -44,28 +44,38 @@ impl Job<'_> {
         let stage = self.progress.stage("report", 0, 0);
         report.drawing("errors", "Errors by angle", &self.errors_caption(), &plot::svg(self.comparison)?)?;
         self.tables(report);
+        if let Some(lpca) = self.lpca() {
+            lpca::learned(lpca, report)?;
+        }
         drop(stage);
 
         let btf = self.source.btf();
-        let surface = self.studio.surface(self.material, None, self.progress)?;
+        let subject = self.studio.subject(self.material, self.settings.appearance, self.progress)?;
         let views = || btf.pairs().iter().map(|pair| (pair.view, btf.views()[pair.view]));
         let (zenith, oblique) = (nearest(views(), (0.0, 0.0)), nearest(views(), OBLIQUE));
         let mut figures = Vec::new();
         if let Some(view) = zenith {
-            figures.push(self.sheet("above", "Seen from above", &surface, view)?);
+            figures.push(self.sheet("above", "Seen from above", &subject, view)?);
         }
         if let Some(view) = oblique.filter(|_| oblique != zenith) {
-            figures.push(self.sheet("oblique", "Seen obliquely", &surface, view)?);
+            figures.push(self.sheet("oblique", "Seen obliquely", &subject, view)?);
         }
         if !self.comparison.worst_pairs.is_empty() {
-            figures.push(self.worst(&surface)?);
+            figures.push(self.worst(&subject)?);
         }
         figures.extend(self.texels(zenith)?);
-        if let Some(at) = self.settings.texel {
-            figures.push(self.texel(at));
+        match (self.lpca(), self.settings.texel) {
+            (Some(_), _) => figures.push(lpca::between(self, &subject)?),
+            (None, Some(at)) => figures.push(self.texel(at)),
+            (None, None) => {}
         }
         let _stage = self.progress.stage("report", 0, 0);
         figures.iter().try_for_each(|figure| report.figure(figure))
+    }
+
+    /// The local PCA, if that is compared.
+    fn lpca(&self) -> Option<&Lpca> {
+        self.material.lpca.as_ref().filter(|_| matches!(self.settings.appearance, Appearance::Lpca { .. }))
     }
 
     fn errors_caption(&self) -> String {
@@ -110,7 +120,7 @@ impl Job<'_> {
     }
 
     /// Light from the right at several elevations, a row each (thesis fig. 4.1 and 4.2).
-    fn sheet(&self, stem: &'static str, title: &'static str, surface: &Surface, view: usize) -> Result<Figure, PipelineError> {
+    fn sheet(&self, stem: &'static str, title: &'static str, subject: &Subject, view: usize) -> Result<Figure, PipelineError> {
         let btf = self.source.btf();
         let samples: Vec<usize> = (0..btf.pairs().len()).filter(|&sample| btf.pairs()[sample].view == view).collect();
         let lights: Vec<Direction> = samples.iter().map(|&sample| btf.directions(sample).1).collect();
@@ -125,7 +135,7 @@ impl Job<'_> {
         };
         let rows = chosen.into_iter().filter_map(from_right).map(|sample| {
             let light = btf.directions(sample).1;
-            self.row(surface, sample, together(&format!("light {light}")))
+            self.row(subject, sample, together(&format!("light {light}")))
         });
         Ok(Figure {
             stem,
@@ -137,11 +147,11 @@ impl Job<'_> {
     }
 
     /// The pairs of the largest relative RMS.
-    fn worst(&self, surface: &Surface) -> Result<Figure, PipelineError> {
+    fn worst(&self, subject: &Subject) -> Result<Figure, PipelineError> {
         let btf = self.source.btf();
         let rows = self.comparison.worst_pairs.iter().take(WORST).map(|pair| {
             let (view, light) = btf.directions(pair.sample);
-            self.row(surface, pair.sample, together(&format!("view {view}")) + " " + &together(&format!("light {light}")))
+            self.row(subject, pair.sample, together(&format!("view {view}")) + " " + &together(&format!("light {light}")))
         });
         Ok(Figure {
             stem: "worst",
@@ -153,10 +163,10 @@ impl Job<'_> {
     }
 
     /// Original, differences and reconstruction of a pair.
-    fn row(&self, surface: &Surface, sample: usize, label: String) -> Result<Row, PipelineError> {
+    fn row(&self, subject: &Subject, sample: usize, label: String) -> Result<Row, PipelineError> {
         let (view, light) = self.source.btf().directions(sample);
         let original = self.original(sample)?;
-        let found = self.studio.reconstruct(surface, view, light, self.settings.relief, self.progress)?;
+        let found = self.studio.picture(subject, view, light, self.progress)?;
         // Signed, positive where the original has more.
         let difference = |sign: f32| {
             Map::from_fn(found.width(), found.height(), |column, row| {
@@ -258,15 +268,16 @@ impl Comparison {
     pub(super) fn introduction(&self) -> String {
         let [width, height] = self.size;
         let with = |on: bool| if on { "with" } else { "without" };
+        let made = match self.appearance {
+            Appearance::Svbrdf { relief: Relief { displace, shadow, .. } } => {
+                format!("the material {} displacement and {} shadows of its height field", with(displace), with(shadow))
+            }
+            Appearance::Lpca { .. } => "the material's local PCA".to_owned(),
+        };
         format!(
-            "{width} by {height} texels, {} pairs of a view and a light, each reconstructed from the material {} displacement and {} shadows of \
-             its height field, on {}, by overpaint {}. The figures are in compare.json too. Directions are θ from the normal and φ \
-             counter-clockwise from the right, in degrees.",
-            self.overall.pairs,
-            with(self.relief.displace),
-            with(self.relief.shadow),
-            self.adapter.name,
-            self.version
+            "{width} by {height} texels, {} pairs of a view and a light, each reconstructed from {made}, on {}, by overpaint {}. The figures are \
+             in compare.json too. Directions are θ from the normal and φ counter-clockwise from the right, in degrees.",
+            self.overall.pairs, self.adapter.name, self.version
         )
     }
 }

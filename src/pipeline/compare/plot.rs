@@ -1,4 +1,4 @@
-//! Errors against the angles of view and light, as a drawing.
+//! Errors against the angles of view and light, and against iterations, as drawings.
 
 use plotters::{
     coord::Shift,
@@ -59,20 +59,70 @@ pub fn svg(comparison: &Comparison) -> Result<String, PipelineError> {
     Ok(text)
 }
 
+/// Errors after each iteration but the first, as SVG: that one is so much larger that it would hide the others.
+pub fn iterations(errors: &[f64]) -> Result<String, PipelineError> {
+    let mut text = String::new();
+    let area = SVGBackend::with_string(&mut text, (SIZE.0 / 2, SIZE.1)).into_drawing_area();
+    let points = (1_u32..).map(f64::from).zip(errors.iter().copied()).skip(1).collect();
+    let axes = Axes {
+        title: "relative RMS error",
+        over: "iteration",
+        shown: None,
+        range: 1e-3,
+        marks: [|value| format!("{value:.0}"), |value| format!("{value:.4}")],
+    };
+    chart(&area, &axes, &[Line { name: "left after assignment", color: VIEW, points }])
+        .map_err(|message| PipelineError::Plot { message })?;
+    drop(area);
+    Ok(text)
+}
+
 fn panel(area: &DrawingArea<SVGBackend<'_>, Shift>, quantity: &Quantity, comparison: &Comparison) -> Result<(), String> {
     let points = |groups: &[AtElevation]| -> Vec<(f64, f64)> {
         groups.iter().filter_map(|group| Some((group.theta_degrees, (quantity.value)(&group.quality)?))).collect()
     };
-    let lines = [("view", VIEW, points(&comparison.by_view_elevation)), ("light", LIGHT, points(&comparison.by_light_elevation))];
-    let values = || lines.iter().flat_map(|(_, _, points)| points);
+    let axes = Axes {
+        title: quantity.title,
+        over: "θ of view or light / degrees",
+        shown: quantity.shown,
+        range: quantity.range,
+        marks: [|theta| format!("{theta:.0}"), quantity.mark],
+    };
+    let line = |name, color, groups: &[AtElevation]| Line { name, color, points: points(groups) };
+    let lines = [line("view", VIEW, &comparison.by_view_elevation), line("light", LIGHT, &comparison.by_light_elevation)];
+    chart(area, &axes, &lines)
+}
+
+/// What a chart shows.
+struct Axes {
+    title: &'static str,
+    /// Name of the horizontal axis.
+    over: &'static str,
+    /// What the vertical axis shows in any case.
+    shown: Option<f64>,
+    /// Least range of the vertical axis.
+    range: f64,
+    /// Marks of the horizontal and the vertical axis.
+    marks: [fn(&f64) -> String; 2],
+}
+
+/// A line of a chart, and its name.
+struct Line {
+    name: &'static str,
+    color: RGBColor,
+    points: Vec<(f64, f64)>,
+}
+
+fn chart(area: &DrawingArea<SVGBackend<'_>, Shift>, axes: &Axes, lines: &[Line]) -> Result<(), String> {
+    let values = || lines.iter().flat_map(|line| &line.points);
     let [low, high] = values()
         .map(|&(_, value)| value)
-        .chain(quantity.shown)
+        .chain(axes.shown)
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     // Nothing to draw but the axes.
     let [low, high] = if low <= high { [low, high] } else { [0.0, 0.0] };
     let last = values().fold(10.0_f64, |last, &(theta, _)| last.max(theta));
-    let room = 0.08 * (high - low) + 0.5 * (quantity.range - (high - low)).max(0.0);
+    let room = 0.08 * (high - low) + 0.5 * (axes.range - (high - low)).max(0.0);
     // An error of 0 is the floor of the axis; above the lines there is room for their names.
     let (floor, ceiling) = (if low == 0.0 { 0.0 } else { low - room }, high + 0.35 * (high - low) + room);
     let failed = |error: &dyn std::fmt::Display| error.to_string();
@@ -80,29 +130,29 @@ fn panel(area: &DrawingArea<SVGBackend<'_>, Shift>, quantity: &Quantity, compari
     area.fill(&WHITE).map_err(|error| failed(&error))?;
     let mut chart = ChartBuilder::on(area)
         .margin(10)
-        .caption(quantity.title, ("sans-serif", 20).into_font())
+        .caption(axes.title, ("sans-serif", 20).into_font())
         .x_label_area_size(44)
         .y_label_area_size(58)
         .build_cartesian_2d(0.0..1.04 * last, floor..ceiling)
         .map_err(|error| failed(&error))?;
     chart
         .configure_mesh()
-        .x_desc("θ of view or light / degrees")
+        .x_desc(axes.over)
         .x_labels(6)
         .y_labels(8)
-        .x_label_formatter(&|theta| format!("{theta:.0}"))
-        .y_label_formatter(&quantity.mark)
+        .x_label_formatter(&axes.marks[0])
+        .y_label_formatter(&axes.marks[1])
         .label_style(("sans-serif", 15))
         .axis_desc_style(("sans-serif", 17))
         .light_line_style(WHITE)
         .draw()
         .map_err(|error| failed(&error))?;
-    for (label, color, points) in lines {
-        let style = ShapeStyle::from(&color).stroke_width(2);
+    for Line { name, color, points } in lines {
+        let style = ShapeStyle::from(color).stroke_width(2);
         chart
             .draw_series(LineSeries::new(points.iter().copied(), style))
             .map_err(|error| failed(&error))?
-            .label(label)
+            .label(*name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
         chart.draw_series(points.iter().map(|&point| Circle::new(point, 3, style.filled()))).map_err(|error| failed(&error))?;
     }

@@ -107,6 +107,7 @@ fn cluster(space: &Space, sums: &[&[f32]], weights: &DMatrix<f64>, energy: f64) 
     let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
     let spread: Vec<usize> = (0..components).filter(|&index| eigen.eigenvalues[index] > NOISE * largest).collect();
     if spread.is_empty() {
+        // A single member, or members that are all alike.
         return cluster;
     }
     // What the weights explain of the members is W^T D^(-1/2) U^T S, S being the sums of members by weights.
