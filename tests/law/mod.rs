@@ -16,6 +16,8 @@ crate::suites! {
     lafortune_recovery,
     linear_refit,
     lobe_residual,
+    lpca,
+    lpca_edges,
     masked,
     microfacet,
     normals,

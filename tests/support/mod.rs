@@ -12,6 +12,7 @@ pub mod npy;
 pub mod probe;
 pub mod random;
 pub mod speckle;
+pub mod subspaces;
 pub mod surface;
 pub mod tile;
 
