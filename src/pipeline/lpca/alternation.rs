@@ -18,7 +18,11 @@ use crate::{
 const STARTS: usize = 4;
 
 /// New clusters in each of them, by when the order of their errors is that in the end, or nearly.
-const TRIAL: usize = 4;
+const TRIAL_ITERATIONS: usize = 4;
+
+/// Texels that they take, and more where these are fewer than so many to a cluster.
+const TRIAL_TEXELS: usize = 2048;
+const TRIAL_MEMBERS: usize = 128;
 
 /// A cluster in coordinates: its mean and orthonormal eigenvectors `[eigenvector][coordinate]`.
 pub type Subspace = (Vec<f64>, Vec<Vec<f64>>);
@@ -69,6 +73,20 @@ impl Coordinates {
 
     pub fn texels(&self) -> usize {
         self.energies.len()
+    }
+
+    /// Those of `most` texels drawn at random; none if there are no more. (Evenly spaced ones may all lie alike on the yarns of a cloth.)
+    fn thinned(&self, gpu: &Gpu, most: usize, random: &mut fastrand::Rng) -> Result<Option<Self>, PipelineError> {
+        if self.texels() <= most {
+            return Ok(None);
+        }
+        let all = self.slices.iter().map(|slice| slice.read(gpu)).collect::<Result<Vec<_>, _>>()?.concat();
+        let quads = self.rank / 4;
+        let texels = random.choose_multiple(0..self.texels(), most);
+        let own: Vec<[f32; 4]> = texels.iter().flat_map(|&texel| &all[texel * quads..][..quads]).copied().collect();
+        let energies: Vec<f32> = texels.iter().map(|&texel| self.energies[texel]).collect();
+        let energy = energies.iter().copied().map(f64::from).sum();
+        Ok(Some(Self { slices: vec![gpu.upload("some coordinates", &own)?], energy, energies, ..*self }))
     }
 
     /// The given texel's.
@@ -152,39 +170,27 @@ pub struct Alternated {
 pub fn alternate(
     pca: &Pca<'_>, coordinates: &Coordinates, settings: &LpcaSettings, start: Option<Vec<Subspace>>,
 ) -> Result<Alternated, PipelineError> {
-    let (gpu, progress) = (pca.tiles.job().gpu, pca.tiles.job().progress);
     let clusters = (settings.clusters as usize).min(coordinates.texels());
-    let alternation = Alternation {
-        gpu,
-        progress,
-        stages: &pca.stages,
-        coordinates,
-        clusters,
-        components: settings.components as usize,
-        total: pca.space.energy(coordinates.energy, coordinates.texels()),
+    let start = match start {
+        Some(start) => start,
+        None => best_start(pca, coordinates, settings, clusters)?,
     };
-    if let Some(start) = start {
-        return alternation.run(start, settings.iterations as usize);
-    }
+    Alternation::new(pca, coordinates, settings, clusters).run(start, settings.iterations as usize)
+}
+
+/// The best of some starts at random, after a few iterations with some of the texels.
+fn best_start(pca: &Pca<'_>, coordinates: &Coordinates, settings: &LpcaSettings, clusters: usize) -> Result<Vec<Subspace>, PipelineError> {
     let mut random = fastrand::Rng::with_seed(u64::from(settings.seed));
+    let thinned = coordinates.thinned(pca.tiles.job().gpu, TRIAL_TEXELS.max(TRIAL_MEMBERS * clusters), &mut random)?;
+    let trial = Alternation::new(pca, thinned.as_ref().unwrap_or(coordinates), settings, clusters);
     let mut best: Option<Alternated> = None;
     for _ in 0..STARTS {
-        let found = alternation.run(alternation.seeds(&mut random)?, TRIAL.min(settings.iterations as usize))?;
+        let found = trial.run(trial.seeds(&mut random)?, TRIAL_ITERATIONS)?;
         if best.as_ref().is_none_or(|best| found.errors.last() < best.errors.last()) {
             best = Some(found);
         }
     }
-    let Some(mut best) = best else { return alternation.run(Vec::new(), 0) };
-    let left = (settings.iterations as usize).saturating_sub(best.errors.len() - 1);
-    if left > 0 {
-        // The first assignment is the trial's last.
-        best.errors.pop();
-        let mut errors = best.errors;
-        best = alternation.run(best.subspaces, left)?;
-        errors.append(&mut best.errors);
-        best.errors = errors;
-    }
-    Ok(best)
+    Ok(best.map(|best| best.subspaces).unwrap_or_default())
 }
 
 struct Alternation<'a> {
@@ -198,7 +204,19 @@ struct Alternation<'a> {
     total: f64,
 }
 
-impl Alternation<'_> {
+impl<'a> Alternation<'a> {
+    fn new(pca: &'a Pca<'_>, coordinates: &'a Coordinates, settings: &LpcaSettings, clusters: usize) -> Self {
+        Self {
+            gpu: pca.tiles.job().gpu,
+            progress: pca.tiles.job().progress,
+            stages: &pca.stages,
+            coordinates,
+            clusters,
+            components: settings.components as usize,
+            total: pca.space.energy(coordinates.energy, coordinates.texels()),
+        }
+    }
+
     /// At most so many times new clusters from what their members are; ends with an assignment.
     fn run(&self, mut subspaces: Vec<Subspace>, iterations: usize) -> Result<Alternated, PipelineError> {
         let Self { gpu, progress, stages, coordinates, clusters, components, total } = *self;
