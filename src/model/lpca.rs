@@ -80,8 +80,8 @@ impl LpcaSettings {
         (8 * self.components).clamp(64, MAX_RANK)
     }
 
-    /// An alternation that lowers the error by less than this, relatively, is the last.
-    pub const SETTLED: f64 = 1e-4;
+    /// An alternation that lowers the energy which clusters leave by less than this, relatively, is the last.
+    pub const SETTLED: f64 = 1e-3;
 
     /// Checks that every setting is in range.
     ///

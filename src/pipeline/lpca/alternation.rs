@@ -15,7 +15,7 @@ use crate::{
 
 /// Starts at random of which the best goes on. Where an alternation ends depends on where it starts: single ones left 0.0665 to 0.0758 of the path-traced
 /// blocks.
-const STARTS: usize = 4;
+const STARTS: usize = 6;
 
 /// New clusters in each of them, by when the order of their errors is that in the end, or nearly.
 const TRIAL_ITERATIONS: usize = 4;
@@ -222,14 +222,17 @@ impl<'a> Alternation<'a> {
         let Self { gpu, progress, stages, coordinates, clusters, components, total } = *self;
         let quads = components.div_ceil(4);
         let mut errors: Vec<f64> = Vec::new();
+        // Energy left inside the basis: what is outside does not change.
+        let mut last: Option<f64> = None;
         progress.expect(iterations);
         loop {
             let on_gpu = Subspaces::upload(gpu, &subspaces, coordinates.rank, quads)?;
             let Assignment { mut cluster_of, residuals, weights } = coordinates.assign(gpu, progress, stages, &on_gpu)?;
-            let left: f64 = residuals.iter().copied().map(f64::from).sum::<f64>() + coordinates.left_out * coordinates.energy;
-            let error = if total > 0.0 { (left / total).sqrt() } else { 0.0 };
-            let is_settled = errors.last().is_some_and(|&last| last - error <= LpcaSettings::SETTLED * last);
-            errors.push(error);
+            let inside: f64 = residuals.iter().copied().map(f64::from).sum();
+            let left = inside + coordinates.left_out * coordinates.energy;
+            errors.push(if total > 0.0 { (left / total).sqrt() } else { 0.0 });
+            let is_settled = last.is_some_and(|last| last - inside <= LpcaSettings::SETTLED * last);
+            last = Some(inside);
             if is_settled || errors.len() > iterations {
                 progress.advance((iterations + 1) - errors.len());
                 let weights = weights.iter().map(|slice| slice.read(gpu)).collect::<Result<Vec<_>, _>>()?.concat();

@@ -140,7 +140,7 @@ impl Pca<'_> {
             clusters = lift(self, &coordinates, &found, &format!("lpca lift {round}"))?;
             // Of the clusters that were lifted last, which their span holds.
             let error = found.errors[0];
-            let is_settled = errors.last().is_some_and(|&last| last - error <= LpcaSettings::SETTLED * last);
+            let is_settled = errors.last().is_some_and(|&last| last.powi(2) - error.powi(2) <= LpcaSettings::SETTLED * last.powi(2));
             errors.push(error);
             if is_settled {
                 break;
