@@ -5,14 +5,15 @@
 //! halves as a source gives them. Errors are of all samples, the peer's in single precision, overpaint's of the halves that it stores.
 //! The first run of a method has the driver compile the kernels.
 //!
-//! `cargo bench --bench lpca -- scaling`: time of the passes by texels, by clusters and by components, on made data.
+//! `cargo bench --bench lpca -- scaling`: time of the passes by texels, by clusters and by components, on made data, and which part they reach of the
+//! adapter's own rates: of multiply-adds in registers, and of loads in order from a buffer larger than caches.
 
 use std::{env, error::Error, fs, path::Path, process::Command, time::Instant};
 
 use half::f16;
 use overpaint::{
     data::{Block, Btf, Direction, Encoding, Grid, Lpca, Pair, Transfer},
-    gpu::Gpu,
+    gpu::{Bind, Gpu, GpuError, Kernel, Resource, Source as WgslSource, bind},
     io::{self, IoError, Source},
     model::{LpcaMethod, LpcaSettings},
     pipeline::{self, Memory, Progress, StageTable},
@@ -223,23 +224,113 @@ const SIDE: usize = 128;
 fn scaling(gpu: &Gpu) -> Result<(), Box<dyn Error>> {
     let settings = LpcaSettings { iterations: ITERATIONS, ..LpcaSettings::default() };
     let made = Made::new(SIDE)?;
+    let rates = Rates::of(gpu)?;
+    println!("{:.1} GFLOP/s of multiply-adds, {:.2} GB/s of loads in order", rates.arithmetic / 1e9, rates.loads / 1e9);
     // The first run has the driver compile the kernels.
     ours(gpu, &made, &settings)?;
     for side in [64, 128, 256] {
-        measure(gpu, &Made::new(side)?, &settings)?;
+        measure(gpu, &Made::new(side)?, &settings, &rates)?;
     }
     for clusters in [4, 8, 32, 64] {
-        measure(gpu, &made, &LpcaSettings { clusters, ..settings })?;
+        measure(gpu, &made, &LpcaSettings { clusters, ..settings }, &rates)?;
     }
     for components in [2, 4, 16, 32] {
-        measure(gpu, &made, &LpcaSettings { components, ..settings })?;
+        measure(gpu, &made, &LpcaSettings { components, ..settings }, &rates)?;
     }
     Ok(())
 }
 
-/// Prints the job's time and each stage's: seconds on the wall and on the adapter, how often it went over the plane, and the
-/// adapter's time for a texel each time.
-fn measure(gpu: &Gpu, source: &Made, settings: &LpcaSettings) -> Result<(), Box<dyn Error>> {
+/// Rates of an adapter, a second.
+struct Rates {
+    /// Operations, two a multiply-add.
+    arithmetic: f64,
+    /// Bytes.
+    loads: f64,
+}
+
+const ARITHMETIC: WgslSource = wgsl(
+    "arithmetic",
+    "@group(0) @binding(0) var<storage, read_write> values: array<vec4<f32>>;
+    @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+        var a = values[id.x];
+        var b = a + 1.0;
+        var c = a + 2.0;
+        var d = a + 3.0;
+        let x = a * 0.5;
+        for (var i = 0u; i < 4096u; i++) {
+            a = fma(a, x, x);
+            b = fma(b, x, x);
+            c = fma(c, x, x);
+            d = fma(d, x, x);
+        }
+        values[id.x] = a + b + c + d;
+    }",
+);
+
+const LOADS: WgslSource = wgsl(
+    "loads",
+    "@group(0) @binding(0) var<storage, read> values: array<vec4<u32>>;
+    @group(0) @binding(1) var<storage, read_write> sums: array<vec4<u32>>;
+    @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+        var sum = vec4(0u);
+        for (var i = 0u; i < 64u; i++) {
+            sum += values[i * 65536u + id.x];
+        }
+        sums[id.x] = sum;
+    }",
+);
+
+const fn wgsl(name: &'static str, text: &'static str) -> WgslSource {
+    WgslSource { name, path: name, text }
+}
+
+impl Rates {
+    const THREADS: usize = 1 << 16;
+
+    fn of(gpu: &Gpu) -> Result<Self, Box<dyn Error>> {
+        let arithmetic = Kernel::new(gpu, &ARITHMETIC, &[], &[Resource::read_write::<[f32; 4]>("values")])?;
+        let loads = Kernel::new(gpu, &LOADS, &[], &[Resource::read::<[u32; 4]>("values"), Resource::read_write::<[u32; 4]>("sums")])?;
+        let values = gpu.upload("values", &vec![[0.5_f32; 4]; Self::THREADS])?;
+        let (many, sums) = (gpu.zeros::<[u32; 4]>("many values", 64 * Self::THREADS)?, gpu.fresh::<[u32; 4]>("sums", Self::THREADS)?);
+        // The best of three: the first has the driver compile.
+        let best = |kernel: &Kernel, binds: &[Bind<'_>]| {
+            let runs = (0..3).map(|_| {
+                let start = Instant::now();
+                let mut recorder = gpu.recorder();
+                recorder.dispatch(kernel, binds, overpaint::gpu::Grid::threads(Self::THREADS))?;
+                gpu.submit(recorder).wait(gpu)?;
+                Ok::<_, GpuError>(start.elapsed().as_secs_f64())
+            });
+            runs.collect::<Result<Vec<_>, _>>().map(|seconds| seconds.into_iter().fold(f64::INFINITY, f64::min))
+        };
+        let threads = Self::THREADS as f64;
+        Ok(Self {
+            arithmetic: threads * 4096.0 * 4.0 * 4.0 * 2.0 / best(&arithmetic, &[bind("values", &values)])?,
+            loads: threads * 64.0 * 16.0 / best(&loads, &[bind("values", &many), bind("sums", &sums)])?,
+        })
+    }
+}
+
+/// Operations and bytes of samples and coordinates that one pass of a stage takes for a texel.
+fn work(stage: &str, samples: usize, lpca: &Lpca) -> Option<(f64, f64)> {
+    let values = (3 * samples.next_multiple_of(8)) as f64;
+    let (clusters, rank) = (lpca.clusters as f64, lpca.learned.rank.next_multiple_of(16) as f64);
+    let fours = |number: usize| number.next_multiple_of(4) as f64;
+    let components = fours(lpca.components);
+    match stage {
+        "lpca_sketch" => Some((8.0 * values, 2.0 * values)),
+        "lpca_project" => Some((2.0 * values * rank, 2.0 * values)),
+        "lpca_assign" => Some((2.0 * rank * clusters * (1.0 + components), 4.0 * rank)),
+        "lpca_covariance" => Some((rank * rank, 4.0 * rank)),
+        "lpca_lift" => Some((2.0 * values * fours(1 + lpca.components), 2.0 * values)),
+        "lpca_weights" => Some((4.0 * values * components, 4.0 * values)),
+        _ => None,
+    }
+}
+
+/// Prints the job's time and each stage's: seconds on the wall and on the adapter, how often it went over the plane, the adapter's time for a
+/// texel each time, and the part of the adapter's rates that it reaches.
+fn measure(gpu: &Gpu, source: &Made, settings: &LpcaSettings, rates: &Rates) -> Result<(), Box<dyn Error>> {
     let (outcome, lpca, table) = ours(gpu, source, settings)?;
     let (texels, samples) = (source.btf.texels(), source.btf.pairs().len());
     println!(
@@ -251,14 +342,22 @@ fn measure(gpu: &Gpu, source: &Made, settings: &LpcaSettings) -> Result<(), Box<
         outcome.seconds,
         outcome.relative_rms,
     );
-    println!("  {:<24}{:>10}{:>9}{:>12}{:>8}{:>14}", "", "wall s", "share", "adapter s", "passes", "ns a texel");
+    println!(
+        "  {:<24}{:>10}{:>9}{:>12}{:>8}{:>14}{:>12}{:>8}",
+        "", "wall s", "share", "adapter s", "passes", "ns a texel", "arithmetic", "loads"
+    );
     for stage in &table.stages {
         let passes = stage.texels as f64 / texels as f64;
         let (seconds, each) = stage.gpu_seconds.map_or_else(Default::default, |seconds| {
             (format!("{seconds:.4}"), if stage.texels > 0 { format!("{:.1}", 1e9 * seconds / stage.texels as f64) } else { String::new() })
         });
         let share = 100.0 * table.share(stage);
-        println!("  {:<24}{:>10.4}{share:>7.1} %{seconds:>12}{passes:>8.1}{each:>14}", stage.name, stage.wall_seconds);
+        let reached =
+            work(&stage.name, samples, &lpca).zip(stage.gpu_seconds).map_or_else(Default::default, |((operations, bytes), seconds)| {
+                let part = |amount: f64, rate: f64| 100.0 * amount * stage.texels as f64 / seconds / rate;
+                format!("{:>10.1} %{:>6.1} %", part(operations, rates.arithmetic), part(bytes, rates.loads))
+            });
+        println!("  {:<24}{:>10.4}{share:>7.1} %{seconds:>12}{passes:>8.1}{each:>14}{reached}", stage.name, stage.wall_seconds);
     }
     Ok(())
 }
