@@ -133,7 +133,7 @@ fn the_error_never_rises(gpu: &Gpu) {
             for (clusters, components) in [(2, 1), (8, 3), (16, 8)] {
                 let found = learned(gpu, source, &LpcaSettings { method, ..settings(clusters, components) });
                 let errors = &found.learned.errors;
-                assert!(!errors.is_empty() && errors.len() <= 25, "{errors:?}");
+                assert!(!errors.is_empty() && errors.len() <= 26, "{errors:?}");
                 for step in errors.windows(2) {
                     let rise = step[1] / step[0] - 1.0;
                     match method {
