@@ -5,13 +5,22 @@
 
 use super::{Coordinates, Pca, alternate, lift};
 use crate::{
-    data::{Lpca, LpcaCandidate},
+    data::{Btf, Lpca, LpcaCandidate},
     model::{LpcaSettings, LpcaTarget},
     pipeline::PipelineError,
 };
 
 const CLUSTERS: [u32; 5] = [4, 8, 16, 32, 64];
 const COMPONENTS: [u32; 6] = [2, 4, 6, 8, 12, 16];
+
+/// Checks that what is tried holds something as small as `target` asks for.
+pub fn check(btf: &Btf, target: LpcaTarget) -> Result<(), PipelineError> {
+    let least = Lpca::adapter_bytes(btf.texels(), btf.pairs().len(), CLUSTERS[0] as usize, COMPONENTS[0] as usize);
+    match target {
+        LpcaTarget::Size(most) if most < least => Err(PipelineError::LpcaTarget { least }),
+        LpcaTarget::Size(_) | LpcaTarget::Error(_) => Ok(()),
+    }
+}
 
 /// The settings with the numbers that their target chooses, and what it chose from, the smallest first.
 pub fn choose(

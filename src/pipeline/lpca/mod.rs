@@ -155,9 +155,12 @@ impl Pca<'_> {
 pub(super) fn check(gpu: &Gpu, source: &dyn Source, settings: &LpcaSettings) -> Result<(), PipelineError> {
     settings.checked()?;
     let samples = source.btf().pairs().len();
+    if let Some(target) = settings.target {
+        return choice::check(source.btf(), target);
+    }
     let (clusters, components) = (settings.clusters as usize, settings.components as usize);
     let (bytes, limit) = (Lpca::adapter_bytes(0, samples, clusters, components), gpu.max_array_bytes());
-    if settings.target.is_none() && bytes > limit {
+    if bytes > limit {
         let adapter = gpu.adapter().name.clone();
         return Err(PipelineError::LpcaTooLarge { clusters, components, samples, bytes, adapter, limit });
     }
