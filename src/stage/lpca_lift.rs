@@ -44,7 +44,7 @@ impl Lifted {
         Ok(Self { sums, counts, clusters, lines })
     }
 
-    /// The sums of weight `weight` `[cluster][line]`.
+    /// The sums `[quad of weights][cluster][weight of the quad][line]`.
     ///
     /// # Errors
     /// [`GpuError`] if the device stopped.
