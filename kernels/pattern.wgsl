@@ -17,6 +17,11 @@ struct Params {
     // width of the stroke, tile coordinates
     brush: f32,
     shapes: u32,
+    // index of the layer's first texel
+    first: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 }
 
 struct Capsule {
@@ -30,7 +35,7 @@ struct Capsule {
 @group(0) @binding(0) var<uniform> params: Params;
 // [shape], of a splash
 @group(0) @binding(1) var<storage, read> shapes: array<Capsule>;
-// [row][column], drawn thickness 0..1
+// [layer][row][column], drawn thickness 0..1
 @group(0) @binding(2) var<storage, read_write> drawn: array<f32>;
 
 const SIZE: u32 = 64u;
@@ -126,5 +131,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     } else if params.pattern == BRUSH {
         thickness = brush(place);
     }
-    drawn[texel] = thickness;
+    drawn[params.first + texel] = thickness;
 }

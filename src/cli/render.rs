@@ -6,10 +6,10 @@ use clap::{Args, CommandFactory, ValueEnum, error::ErrorKind};
 
 use super::{Cli, CliError, arguments, output, session::SessionArguments};
 use crate::{
-    data::{Direction, PlaneView},
+    data::{Direction, PlaneView, Recipe},
     io,
-    model::{Layer, Paint, Pattern, Relief, pigments},
-    pipeline::{Painting, Studio},
+    model::{Layer, Paint, Pattern, Placement, Relief, pigments},
+    pipeline::Studio,
 };
 
 /// Show a material as a plane in space, bare or painted.
@@ -84,20 +84,21 @@ enum PatternName {
 
 impl PaintArguments {
     /// The layer and where it is drawn, if there is one.
-    fn painting(self) -> Result<Option<Painting>, CliError> {
+    fn painting(self) -> Result<Option<Recipe>, CliError> {
         let (Some(paint), Some(thickness)) = (self.paint, self.thickness) else {
             return Ok(None);
         };
         let (relief, refractive_index, roughness) = (self.relief, self.refractive_index, self.roughness);
-        let layer = Layer { paint, thickness, relief, refractive_index, roughness };
         let pattern = match self.pattern {
-            PatternName::Uniform => Pattern::Uniform,
+            PatternName::Uniform => Pattern::Uniform { drawn: 1.0 },
             PatternName::Splash => Pattern::Splash { seed: self.seed },
-            PatternName::Brush => Pattern::Brush { seed: self.seed, angle: self.angle.to_radians(), width: self.width },
+            PatternName::Brush => Pattern::Brush { seed: self.seed, width: self.width },
         };
+        let placement = Placement { rotation: self.angle.to_radians(), ..Placement::default() };
+        let layer = Layer { paint, pattern, placement, thickness, relief, refractive_index, roughness };
         let layer = layer.checked().map_err(|error| out_of_range(&error))?;
-        let pattern = pattern.checked().map_err(|error| out_of_range(&error))?;
-        Ok(Some(Painting { layer, pattern }))
+        layer.pattern.checked().map_err(|error| out_of_range(&error))?;
+        Ok(Some(Recipe::of(layer)))
     }
 }
 

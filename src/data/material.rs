@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Direction, Encoding, Lpca, Map, ShapeError};
+use super::{Direction, Encoding, Lpca, Map, Painted, ShapeError};
 use crate::model::{FitSettings, Frame, SurfaceMode};
 
 /// One lobe of every texel.
@@ -240,6 +240,8 @@ pub struct Material {
     pub svbrdf: Svbrdf,
     /// The original's full look, unless it was left out.
     pub lpca: Option<Lpca>,
+    /// The paint on it, if there is any. It leaves the other maps as they are.
+    pub painted: Option<Painted>,
     /// How the fit went.
     pub fit: Fit,
     /// Which way of taking the surface was chosen.
@@ -279,6 +281,7 @@ impl Material {
                     .collect(),
             },
             lpca: self.lpca.as_ref().map(|lpca| lpca.repeated(columns, rows)),
+            painted: self.painted.as_ref().map(|painted| painted.repeated(columns, rows)),
             fit: Fit {
                 objective_without_lobe: self.fit.objective_without_lobe.repeated(columns, rows),
                 objective: self.fit.objective.repeated(columns, rows),
@@ -311,12 +314,21 @@ impl Material {
             (self.fit.status.width(), self.fit.status.height()),
             (self.fit.masked.width(), self.fit.masked.height()),
         ];
+        let of_paint = self.painted.iter().flat_map(|painted| {
+            [
+                (painted.height.width(), painted.height.height()),
+                (painted.normal.width(), painted.normal.height()),
+                (painted.reflectance.width(), painted.reflectance.height()),
+                (painted.coverage.width(), painted.coverage.height()),
+                (painted.coat.width(), painted.coat.height()),
+            ]
+        });
         let of_lobes = self
             .svbrdf
             .lobes
             .iter()
             .flat_map(|lobe| [(lobe.specular.width(), lobe.specular.height()), (lobe.parameters.width(), lobe.parameters.height())]);
-        match shapes.into_iter().chain(of_lobes).find(|&shape| shape != (width, height)) {
+        match shapes.into_iter().chain(of_paint).chain(of_lobes).find(|&shape| shape != (width, height)) {
             Some((w, h)) => Err(ShapeError { width, height, expected: width * height, found: w * h }),
             None => Ok(self),
         }

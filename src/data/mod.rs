@@ -11,7 +11,9 @@ mod lpca;
 mod map;
 mod material;
 mod nearest_samples;
+mod painted;
 mod plane_view;
+mod recipe;
 mod samples;
 
 pub use block::Block;
@@ -24,7 +26,9 @@ pub use lpca::{Learned, Lpca, LpcaCandidate};
 pub use map::{Map, ShapeError};
 pub use material::{Candidate, Choice, Fit, FitStatus, Left, Lobe, Material, Provenance, Svbrdf};
 pub use nearest_samples::nearest_samples;
+pub use painted::Painted;
 pub use plane_view::PlaneView;
+pub use recipe::{PatternImage, Recipe};
 pub use samples::{OCTET, Samples};
 
 pub use crate::model::MAX_LOBES;

@@ -1,9 +1,9 @@
 //! Paints and layers: what is laid on a material.
 
-use super::{Film, pigments::Pigment};
+use super::{Coat, Film, Pattern, Placement, pigments::Pigment};
 
 /// A paint by its Kubelka-Munk coefficients per unit of thickness, in R, G, B.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Paint {
     /// Name shown to the user.
     pub name: String,
@@ -21,10 +21,14 @@ impl From<&Pigment> for Paint {
 
 /// One layer of paint. A pattern draws its thickness in [0, 1]; two scales, independent of each other, give that drawing
 /// its optical and its geometric size.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Layer {
     /// The paint.
     pub paint: Paint,
+    /// What is drawn.
+    pub pattern: Pattern,
+    /// Where it is drawn.
+    pub placement: Placement,
     /// Kubelka-Munk thickness d where the drawn thickness is 1, in the unit of the paint's coefficients: d = thickness·drawn.
     pub thickness: f64,
     /// Height in texel widths where the drawn thickness is 1: the surface rises by relief·drawn.
@@ -73,10 +77,24 @@ impl Layer {
     /// Drawn thickness from which a layer counts as closed; below it, the ground's own surface shows between the paint.
     pub const CLOSED: f64 = 0.05;
 
-    /// A layer with the binder of common paints: refractive index 1.5, roughness 0.3.
+    /// A layer of the same thickness everywhere, with the binder of common paints: refractive index 1.5, roughness 0.3.
     #[must_use]
     pub fn new(paint: Paint, thickness: f64, relief: f64) -> Self {
-        Self { paint, thickness, relief, refractive_index: 1.5, roughness: 0.3 }
+        let Coat { refractive_index, roughness } = Coat::default();
+        let pattern = Pattern::Uniform { drawn: 1.0 };
+        Self { paint, pattern, placement: Placement::default(), thickness, relief, refractive_index, roughness }
+    }
+
+    /// Its surface.
+    #[must_use]
+    pub fn coat(&self) -> Coat {
+        Coat { refractive_index: self.refractive_index, roughness: self.roughness }
+    }
+
+    /// Its colour to whoever takes paint for a colour: where it is drawn in full, over white.
+    #[must_use]
+    pub fn colour(&self) -> [f64; 3] {
+        self.films(1.0).map(|film| film.over_substrate(1.0))
     }
 
     /// The layer itself, if every number is in its range.
@@ -116,4 +134,15 @@ impl Layer {
     pub fn rise(&self, drawn: f64) -> f64 {
         self.relief * drawn
     }
+}
+
+/// What paint does to what lies below it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PaintMethod {
+    /// It absorbs and scatters light (Kubelka, Munk 1931), raises the surface and has a highlight of its own.
+    #[default]
+    KubelkaMunk,
+    /// The naive way, for comparison: its colour is mixed into the picture by the drawn thickness, flat and without shading.
+    AlphaBlend,
 }

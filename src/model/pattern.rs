@@ -5,31 +5,90 @@
 
 use std::f64::consts::TAU;
 
-/// What is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What is drawn. Lengths are in the pattern's own coordinates, in which the shorter edge of its cell is 1 ([`Placement`]).
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Pattern {
-    /// Thickness 1 everywhere.
-    Uniform,
+    /// The same thickness everywhere.
+    Uniform {
+        /// The drawn thickness, 0 to 1.
+        drawn: f64,
+    },
+    /// An image: black is bare, white is 1. It keeps its shape, and is as large as fits into its cell.
+    Image {
+        /// Its index among the images of the recipe.
+        image: usize,
+    },
     /// A splash: overlapping blobs, fingers thrown out of them, drops around, the paint thickest at the rims.
     Splash {
         /// Another number, another splash.
         seed: u32,
     },
-    /// One stroke of a brush through the middle, with the marks of its bristles, running dry at its end.
+    /// A flower: petals around a centre, each with its veins, thickest at their rims.
+    Flower {
+        /// Another number, another flower.
+        seed: u32,
+        /// Number of petals, 3 to 16.
+        petals: u32,
+    },
+    /// One stroke of a brush through the middle, from left to right, with the marks of its bristles, running dry at its end.
     Brush {
         /// Another number, another stroke.
         seed: u32,
-        /// Direction of the stroke, counter-clockwise from +x, radians.
-        angle: f64,
-        /// Width of the stroke; the shorter edge of the plane is 1.
+        /// Width of the stroke, 0.01 to 0.5.
         width: f64,
+    },
+    /// Drops of all sizes, flicked from a brush, many small ones and few large ones.
+    Spatter {
+        /// Another number, other drops.
+        seed: u32,
+        /// Part of the cell that is covered, about, above 0 up to 0.9.
+        cover: f64,
+    },
+    /// Stripes from left to right.
+    Stripes {
+        /// Number of stripes along the shorter edge of the cell, 1 to 1000.
+        count: u32,
+        /// Part of their distance that is painted, above 0 and below 1.
+        width: f64,
+    },
+    /// Cloudy noise between 0 and 1.
+    Noise {
+        /// Another number, other clouds.
+        seed: u32,
+        /// Number of the largest clouds along the shorter edge of the cell, 1 to 1000.
+        count: u32,
     },
 }
 
-/// A pattern that cannot be drawn.
+/// Where a pattern is drawn. The plane is divided into equal cells, all drawn alike; a cell's coordinates have their origin in its
+/// middle, x right, y up, its shorter edge 1 long. In each the pattern is scaled by `size`, then turned by `rotation`, then moved by
+/// `offset`; what passes a cell's edge enters at the opposite one, so that the plane repeats without seams.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Placement {
+    /// Columns and rows of cells, 1 to 1000.
+    pub tiling: [u32; 2],
+    /// Right and up, in the cell's coordinates.
+    pub offset: [f64; 2],
+    /// Counter-clockwise, radians.
+    pub rotation: f64,
+    /// Factor on the pattern's lengths, 0.001 to 1000.
+    pub size: f64,
+}
+
+impl Default for Placement {
+    /// One cell, the pattern in its middle at its own size.
+    fn default() -> Self {
+        Self { tiling: [1, 1], offset: [0.0, 0.0], rotation: 0.0, size: 1.0 }
+    }
+}
+
+/// A pattern or placement that cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the {setting} of a brush stroke is {found}; it must be {expected}")]
+#[error("{setting} of {of} is {found}; it must be {expected}")]
 pub struct PatternError {
+    /// "the stripes", "a brush stroke", "the placement" and so on.
+    pub of: &'static str,
     /// Which setting.
     pub setting: &'static str,
     /// The value.
@@ -54,9 +113,14 @@ impl Pattern {
     #[must_use]
     pub fn code(self) -> u32 {
         match self {
-            Self::Uniform => 0,
+            Self::Uniform { .. } => 0,
             Self::Splash { .. } => 1,
             Self::Brush { .. } => 2,
+            Self::Flower { .. } => 3,
+            Self::Spatter { .. } => 4,
+            Self::Stripes { .. } => 5,
+            Self::Noise { .. } => 6,
+            Self::Image { .. } => 7,
         }
     }
 
@@ -64,8 +128,12 @@ impl Pattern {
     #[must_use]
     pub fn seed(self) -> u32 {
         match self {
-            Self::Uniform => 0,
-            Self::Splash { seed } | Self::Brush { seed, .. } => seed,
+            Self::Uniform { .. } | Self::Image { .. } | Self::Stripes { .. } => 0,
+            Self::Splash { seed }
+            | Self::Flower { seed, .. }
+            | Self::Brush { seed, .. }
+            | Self::Spatter { seed, .. }
+            | Self::Noise { seed, .. } => seed,
         }
     }
 
@@ -74,12 +142,10 @@ impl Pattern {
     /// # Errors
     /// [`PatternError`] for the first that is not.
     pub fn checked(self) -> Result<Self, PatternError> {
-        if let Self::Brush { angle, width, .. } = self {
-            if !angle.is_finite() {
-                return Err(PatternError { setting: "angle", found: angle, expected: "finite" });
-            }
+        if let Self::Brush { width, .. } = self {
             if !(0.01..=0.5).contains(&width) {
                 return Err(PatternError {
+                    of: "a brush stroke",
                     setting: "width",
                     found: width,
                     expected: "at least 0.01 and at most 0.5 of the plane's shorter edge",
@@ -94,7 +160,7 @@ impl Pattern {
     pub fn shapes(self) -> Vec<Capsule> {
         match self {
             Self::Splash { seed } => splash(seed),
-            Self::Uniform | Self::Brush { .. } => Vec::new(),
+            _ => Vec::new(),
         }
     }
 }

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::{
-    Painting, PipelineError, Progress, Studio, fit,
+    PipelineError, Progress, Studio, fit,
     report::{Cell, Figure, Report, Row},
 };
 use crate::{
-    data::{Btf, Direction, Map, Material, PlaneView},
+    data::{Btf, Direction, Map, Material, PlaneView, Recipe},
     gpu::Gpu,
     io::{self, Source},
     model::{Appearance, FitSettings, Layer, LpcaSettings, Paint, Pattern, Relief, TexelSamples, color::linear_from_srgb, pigments},
@@ -170,8 +170,8 @@ impl Job<'_> {
         let [view, light] = [PAINTED_VIEW, PAINTED_LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
         let shot = PlaneView::new(view, light, PAINTED_SIZE);
         let cloth = self.material.repeated(PIECES, PIECES);
-        let render = |painting: Option<&Painting>| {
-            let surface = self.studio.surface(&cloth, painting, self.progress)?;
+        let render = |recipe: Option<&Recipe>| {
+            let surface = self.studio.surface(&cloth, recipe, self.progress)?;
             self.studio.render(&surface, &shot, Relief::default(), self.progress)
         };
         let bare = render(None)?;
@@ -181,8 +181,9 @@ impl Job<'_> {
             for thickness in thicknesses {
                 // The library holds the paints named above.
                 let Ok(pigment) = pigments::find(name) else { continue };
-                let layer = Layer { roughness: ROUGHNESS, ..Layer::new(Paint::from(pigment), thickness, RELIEF * thickness) };
-                cells.push(Cell { picture: render(Some(&Painting { layer, pattern: PATTERN }))?, note: format!("thickness {thickness}") });
+                let layer =
+                    Layer { pattern: PATTERN, roughness: ROUGHNESS, ..Layer::new(Paint::from(pigment), thickness, RELIEF * thickness) };
+                cells.push(Cell { picture: render(Some(&Recipe::of(layer)))?, note: format!("thickness {thickness}") });
             }
             rows.push(Row { label: name.to_owned(), cells });
         }

@@ -44,6 +44,7 @@ pub fn fit_within(
         albedo: geometry.albedo,
         svbrdf,
         lpca,
+        painted: None,
         fit,
         choice,
         provenance: provenance(gpu, source, settings),

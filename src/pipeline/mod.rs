@@ -27,5 +27,5 @@ pub use import::{Imported, import};
 pub use lpca::lpca;
 pub use memory::Memory;
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
-pub use studio::{Painting, Studio, Subject};
+pub use studio::{Studio, Subject};
 pub use synth::Synthetic;

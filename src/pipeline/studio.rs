@@ -2,21 +2,12 @@
 
 use super::{PipelineError, Progress, tiles::run};
 use crate::{
-    data::{Direction, Map, Material, PlaneView},
+    data::{Direction, Map, Material, PlaneView, Recipe},
     gpu::{Buffer, Gpu, GpuError, Recorder},
-    model::{Appearance, Coat, Layer, Pattern, Relief, TexelSamples},
+    model::{Appearance, Coat, Relief, TexelSamples},
     render::Plane,
     stage::{self, CompressedBtf, HeightField, Surface},
 };
-
-/// A layer of paint and where it is drawn.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Painting {
-    /// The paint, its thickness and its relief.
-    pub layer: Layer,
-    /// Where and how thick it is drawn.
-    pub pattern: Pattern,
-}
 
 /// What a studio takes pictures of, in adapter memory.
 #[derive(Debug)]
@@ -84,21 +75,22 @@ impl<'g> Studio<'g> {
     /// # Errors
     /// [`PipelineError::Gpu`] if a map does not fit the adapter, [`PipelineError::Paint`] or [`PipelineError::Pattern`] if a setting of the
     /// painting is out of range.
-    pub fn surface(&self, material: &Material, painting: Option<&Painting>, progress: &Progress) -> Result<Surface, PipelineError> {
+    pub fn surface(&self, material: &Material, recipe: Option<&Recipe>, progress: &Progress) -> Result<Surface, PipelineError> {
         let gpu = self.gpu;
         let [columns, rows] = material.size();
         let (size, texels) = ([stage::count(columns), stage::count(rows)], columns * rows);
         let boundary = material.provenance.settings.boundary;
         let diffuse = upload_rgb(gpu, "diffuse", &material.svbrdf.diffuse)?;
         let bare = gpu.upload("height", material.height.values())?;
-        // A film without thickness is no film.
-        let painting = painting.filter(|painting| painting.layer.thickness > 0.0);
-        let (heights, painted, coat) = match painting {
+        let (heights, painted, coat) = match recipe.and_then(|recipe| recipe.layers.first()) {
             None => (bare, gpu.zeros("painted", texels)?, Coat::default()),
-            Some(Painting { layer, pattern }) => {
+            Some(layer) => {
                 layer.clone().checked()?;
-                pattern.checked()?;
-                let drawn = run(gpu, progress, "pattern", [texels, 1], |recorder| self.pattern.record(recorder, *pattern, size))?;
+                layer.pattern.checked()?;
+                let drawn = gpu.fresh("drawn", texels)?;
+                run(gpu, progress, "pattern", [texels, 1], |recorder| {
+                    self.pattern.record(recorder, layer.pattern, layer.placement, size, &drawn, 0)
+                })?;
                 let painted = run(gpu, progress, "kubelka_munk", [texels, 1], |recorder| {
                     self.kubelka_munk.record(recorder, &diffuse, &drawn, layer)
                 })?;

@@ -112,6 +112,7 @@ impl<'g> Synthetic<'g> {
             albedo: self.svbrdf.diffuse.map(|[r, g, b]| (r + g + b) / 3.0),
             svbrdf: self.svbrdf.clone(),
             lpca: None,
+            painted: None,
             fit: Fit {
                 objective_without_lobe: self.heights.map(|_| 0.0),
                 objective: self.heights.map(|_| 0.0),

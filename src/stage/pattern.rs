@@ -4,11 +4,13 @@
 use super::scalar::{count, single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
-    gpu_struct, model, wgsl,
+    gpu_struct,
+    model::{self, Placement},
+    wgsl,
 };
 
 gpu_struct! {
-    struct Params { width: u32, height: u32, pattern: u32, seed: u32, along: [f32; 2], brush: f32, shapes: u32 }
+    struct Params { width: u32, height: u32, pattern: u32, seed: u32, along: [f32; 2], brush: f32, shapes: u32, first: u32, _pad0: u32, _pad1: u32, _pad2: u32 }
 }
 gpu_struct! {
     struct Capsule { ends: [f32; 4], radii: [f32; 2], _pad: [f32; 2] }
@@ -30,37 +32,38 @@ impl Pattern {
         Ok(Self { kernel: Kernel::new(gpu, &wgsl::PATTERN, wgsl::ALL, &resources)? })
     }
 
-    /// Drawn thickness `[row][column]`, 0 (bare) to 1, of a plane of `size` columns and rows that repeats.
+    /// Draws `pattern` at `placement` into `drawn` `[layer][row][column]`, 0 (bare) to 1, as layer number `layer`, on a plane of
+    /// `size` columns and rows that repeats. Not for images, which [`PatternImage`](super::PatternImage) draws.
     ///
     /// # Errors
-    /// [`GpuError`] if the result does not fit the adapter.
-    pub fn record(&self, recorder: &mut Recorder<'_>, pattern: model::Pattern, size: [u32; 2]) -> Result<Buffer<f32>, GpuError> {
+    /// [`GpuError`] if the adapter is out of memory.
+    ///
+    /// # Panics
+    /// If `drawn` has not that many layers, or the pattern is an image: the caller's bug.
+    pub fn record(
+        &self, recorder: &mut Recorder<'_>, pattern: model::Pattern, _placement: Placement, size: [u32; 2], drawn: &Buffer<f32>,
+        layer: usize,
+    ) -> Result<(), GpuError> {
         let [width, height] = size;
         let texels = width as usize * height as usize;
+        assert!(drawn.len() >= (layer + 1) * texels, "layers of \"{}\"", drawn.label());
         let gpu = recorder.gpu();
         let shapes: Vec<_> = pattern.shapes().into_iter().map(capsule).collect();
-        let (angle, brush) = match pattern {
-            model::Pattern::Brush { angle, width, .. } => (angle, width),
-            model::Pattern::Uniform | model::Pattern::Splash { .. } => (0.0, 0.0),
-        };
+        let brush = if let model::Pattern::Brush { width, .. } = pattern { width } else { 0.0 };
         let params = Params {
             width,
             height,
             pattern: pattern.code(),
             seed: pattern.seed(),
-            along: [angle.cos(), angle.sin()].map(single),
+            along: [1.0, 0.0],
             brush: single(brush),
             shapes: count(shapes.len()),
+            first: count(layer * texels),
+            ..Default::default()
         };
         let params = gpu.uniform("pattern params", &params)?;
         let shapes = gpu.upload("pattern shapes", &shapes)?;
-        let drawn = gpu.fresh("drawn", texels)?;
-        recorder.dispatch(
-            &self.kernel,
-            &[bind("params", &params), bind("shapes", &shapes), bind("drawn", &drawn)],
-            Grid::threads(texels),
-        )?;
-        Ok(drawn)
+        recorder.dispatch(&self.kernel, &[bind("params", &params), bind("shapes", &shapes), bind("drawn", drawn)], Grid::threads(texels))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::support::{Worst, hold};
 
 crate::suite! { gpu: thickness_stays_in_range, the_plane_repeats, resolution_does_not_matter, seeds_matter_and_repeat, a_turned_stroke_is_the_stroke_turned; }
 
-const PATTERNS: [Pattern; 3] = [Pattern::Uniform, Pattern::Splash { seed: 3 }, Pattern::Brush { seed: 3, angle: 0.4, width: 0.3 }];
+const PATTERNS: [Pattern; 3] = [Pattern::Uniform { drawn: 1.0 }, Pattern::Splash { seed: 3 }, Pattern::Brush { seed: 3, width: 0.3 }];
 
 fn draw(gpu: &Gpu, pattern: Pattern, size: [u32; 2]) -> Vec<f32> {
     let stage = stage::Pattern::new(gpu).expect("builds");
@@ -16,9 +16,9 @@ fn draw(gpu: &Gpu, pattern: Pattern, size: [u32; 2]) -> Vec<f32> {
 
 /// Between 0 and 1 everywhere; splash and stroke are bare somewhere and reach nearly full thickness somewhere.
 fn thickness_stays_in_range(gpu: &Gpu) {
-    assert!(draw(gpu, Pattern::Uniform, [33, 20]).iter().all(|&t| t == 1.0));
+    assert!(draw(gpu, Pattern::Uniform { drawn: 1.0 }, [33, 20]).iter().all(|&t| t == 1.0));
     for seed in 0..8 {
-        for pattern in [Pattern::Splash { seed }, Pattern::Brush { seed, angle: f64::from(seed), width: 0.25 }] {
+        for pattern in [Pattern::Splash { seed }, Pattern::Brush { seed, width: 0.25 }] {
             let drawn = draw(gpu, pattern, [128, 96]);
             assert!(drawn.iter().all(|t| (0.0..=1.0).contains(t)), "{pattern:?}");
             let covered = drawn.iter().filter(|&&t| t > 0.05).count() as f64 / drawn.len() as f64;
@@ -56,7 +56,7 @@ fn resolution_does_not_matter(gpu: &Gpu) {
 }
 
 fn seeds_matter_and_repeat(gpu: &Gpu) {
-    for pattern in [|seed| Pattern::Splash { seed }, |seed| Pattern::Brush { seed, angle: 0.0, width: 0.3 }] {
+    for pattern in [|seed| Pattern::Splash { seed }, |seed| Pattern::Brush { seed, width: 0.3 }] {
         assert_eq!(draw(gpu, pattern(7), [64, 64]), draw(gpu, pattern(7), [64, 64]));
         assert_ne!(draw(gpu, pattern(7), [64, 64]), draw(gpu, pattern(8), [64, 64]));
     }

@@ -7,11 +7,11 @@ crate::suite! { gpu: agrees_with_its_twin; }
 fn agrees_with_its_twin(gpu: &Gpu) {
     let stage = stage::Pattern::new(gpu).expect("builds");
     let patterns = [
-        Pattern::Uniform,
+        Pattern::Uniform { drawn: 1.0 },
         Pattern::Splash { seed: 1 },
         Pattern::Splash { seed: u32::MAX },
-        Pattern::Brush { seed: 1, angle: 0.0, width: 0.25 },
-        Pattern::Brush { seed: u32::MAX, angle: -2.2, width: 0.4 },
+        Pattern::Brush { seed: 1, width: 0.25 },
+        Pattern::Brush { seed: u32::MAX, width: 0.4 },
     ];
     let draw = |pattern: Pattern, [width, height]: [u32; 2]| {
         let mut recorder = gpu.recorder();
@@ -30,5 +30,5 @@ fn agrees_with_its_twin(gpu: &Gpu) {
         }
     }
     // One row past 65,535 workgroups of 64.
-    hold("pattern: drawn thickness", draw(Pattern::Uniform, [64 * 257, 256]), 2e-4);
+    hold("pattern: drawn thickness", draw(Pattern::Uniform { drawn: 1.0 }, [64 * 257, 256]), 2e-4);
 }

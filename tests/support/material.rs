@@ -36,6 +36,7 @@ pub fn sample([width, height]: [usize; 2], seed: u64) -> Material {
                 .collect(),
         },
         lpca: None,
+        painted: None,
         fit: Fit {
             objective_without_lobe: Map::from_fn(width, height, |_, _| value()),
             objective: Map::from_fn(width, height, |_, _| f32::NAN),

@@ -129,6 +129,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         albedo: reader.scalars(&format::ALBEDO)?,
         svbrdf: Svbrdf { frame, ambient, diffuse: reader.vectors(&format::DIFFUSE)?, lobes },
         lpca: lpca.map(|attribute| lpca::load(&reader, attribute, &provenance)).transpose()?,
+        painted: None,
         fit: Fit {
             objective_without_lobe: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,
