@@ -1,5 +1,6 @@
 // What reconstruct and plane both read: the material's maps, the directions and the switches (stage::Surface).
 #import height_field
+#import painted
 
 // [row][column] where nothing else is said
 // rho_d of the unpainted material per channel, reflectance
@@ -8,5 +9,4 @@
 @group(0) @binding(4) var<storage, read> specular: array<vec4<f32>>;
 // [lobe][row][column], (C_x, C_y, C_z, n)
 @group(0) @binding(5) var<storage, read> lobes: array<vec4<f32>>;
-// Kubelka-Munk reflectance per channel, w = how much of the texel is painted, 0 to 1
-@group(0) @binding(6) var<storage, read> painted: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> painted: array<PaintedTexel>;

@@ -16,6 +16,8 @@ mod lpca;
 mod memory;
 mod model;
 mod output;
+mod paint;
+mod painting;
 mod reading;
 mod reconstruct;
 mod render;
@@ -59,6 +61,7 @@ enum Command {
     Fit(fit::Fit),
     Import(import::Import),
     Info(info::Info),
+    Paint(paint::Paint),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
     Synth(synth::Synth),
@@ -76,6 +79,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Demo(demo) => demo.run(&session),
         Command::Fit(fit) => fit.run(&session),
         Command::Import(import) => import.run(&session),
+        Command::Paint(paint) => paint.run(&session),
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
         Command::Synth(synth) => synth.run(&session),

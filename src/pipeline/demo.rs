@@ -3,14 +3,16 @@
 use std::path::Path;
 
 use super::{
-    PipelineError, Progress, Studio, fit,
+    Painter, PipelineError, Progress, Studio, fit,
     report::{Cell, Figure, Report, Row},
 };
 use crate::{
     data::{Btf, Direction, Map, Material, PlaneView, Recipe},
     gpu::Gpu,
     io::{self, Source},
-    model::{Appearance, FitSettings, Layer, LpcaSettings, Paint, Pattern, Relief, TexelSamples, color::linear_from_srgb, pigments},
+    model::{
+        Appearance, FitSettings, Layer, LpcaSettings, Paint, PaintMethod, Pattern, Relief, TexelSamples, color::linear_from_srgb, pigments,
+    },
 };
 
 /// Name of the report in the demo's folder.
@@ -169,9 +171,15 @@ impl Job<'_> {
     fn painted(&self) -> Result<Figure, PipelineError> {
         let [view, light] = [PAINTED_VIEW, PAINTED_LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
         let shot = PlaneView::new(view, light, PAINTED_SIZE);
+        let painter = Painter::new(self.studio.gpu())?;
         let cloth = self.material.repeated(PIECES, PIECES);
         let render = |recipe: Option<&Recipe>| {
-            let surface = self.studio.surface(&cloth, recipe, self.progress)?;
+            let surface = match recipe {
+                None => self.studio.surface(&cloth, self.progress)?,
+                Some(recipe) => {
+                    self.studio.surface(&painter.paint(&cloth, recipe, PaintMethod::KubelkaMunk, self.progress)?, self.progress)?
+                }
+            };
             self.studio.render(&surface, &shot, Relief::default(), self.progress)
         };
         let bare = render(None)?;

@@ -1,6 +1,7 @@
 //! What must hold without a twin.
 
 crate::suites! {
+    alpha_blend,
     brdf_values,
     color,
     compare,
@@ -21,7 +22,7 @@ crate::suites! {
     masked,
     microfacet,
     normals,
-    paint_relief,
+    paint,
     path_traced,
     pattern,
     percentile,

@@ -6,7 +6,7 @@ use nv_flip::{FlipImageRgb8, FlipPool};
 use overpaint::{
     data::{Direction, Map},
     gpu::Gpu,
-    model::{Boundary, Coat, Frame, Relief},
+    model::{Boundary, Coat, Frame, PaintMethod, Relief},
     reference, stage,
 };
 
@@ -23,8 +23,14 @@ pub fn plain(width: usize, height: usize) -> reference::Surface {
         lobes: vec![(Map::from_fn(width, height, |_, _| [0.0; 3]), Map::from_fn(width, height, |_, _| [-1.0, -1.0, 1.0, 1.0]))],
         painted: Map::from_fn(width, height, |_, _| [0.0; 4]),
         boundary: Boundary::Periodic,
-        coat: Coat::default(),
+        coat: Map::from_fn(width, height, |_, _| coat(Coat::default())),
+        method: PaintMethod::default(),
     }
+}
+
+/// F₀ and α as both sides have them.
+pub fn coat(coat: Coat) -> [f64; 2] {
+    [coat.f0(), coat.alpha()].map(single)
 }
 
 /// Rounded through f32, so that both sides start from the same numbers.
@@ -71,6 +77,13 @@ pub fn upload(gpu: &Gpu, surface: &reference::Surface) -> stage::Surface {
     let three = |map: &Map<[f64; 3]>| map.values().iter().map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]).collect::<Vec<_>>();
     let four = |map: &Map<[f64; 4]>| map.values().iter().map(|v| v.map(|x| x as f32)).collect::<Vec<_>>();
     let upload = |values: Vec<[f32; 4]>| gpu.upload("map", &values).expect("fits");
+    let painted: Vec<_> = surface
+        .painted
+        .values()
+        .iter()
+        .zip(surface.coat.values())
+        .map(|(&[r, g, b, coverage], coat)| stage::PaintedTexel::new([r, g, b].map(|v| v as f32), coverage as f32, coat.map(|v| v as f32)))
+        .collect();
     let heights: Vec<_> = surface.heights.values().iter().map(|&z| z as f32).collect();
     stage::Surface {
         field: stage::HeightField {
@@ -85,8 +98,8 @@ pub fn upload(gpu: &Gpu, surface: &reference::Surface) -> stage::Surface {
         diffuse: upload(three(&surface.diffuse)),
         specular: upload(surface.lobes.iter().flat_map(|(specular, _)| three(specular)).collect()),
         lobes: upload(surface.lobes.iter().flat_map(|(_, lobe)| four(lobe)).collect()),
-        painted: upload(four(&surface.painted)),
-        coat: surface.coat,
+        painted: gpu.upload("painted", &painted).expect("fits"),
+        method: surface.method,
     }
 }
 
