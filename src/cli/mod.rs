@@ -9,6 +9,7 @@ mod bar;
 mod compare;
 mod demo;
 mod error;
+mod figures;
 mod fit;
 mod import;
 mod info;
@@ -58,6 +59,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 enum Command {
     Compare(compare::Compare),
     Demo(demo::Demo),
+    Figures(figures::Figures),
     Fit(fit::Fit),
     Import(import::Import),
     Info(info::Info),
@@ -77,6 +79,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
     match command {
         Command::Compare(compare) => compare.run(&session),
         Command::Demo(demo) => demo.run(&session),
+        Command::Figures(figures) => figures.run(&session),
         Command::Fit(fit) => fit.run(&session),
         Command::Import(import) => import.run(&session),
         Command::Paint(paint) => paint.run(&session),

@@ -4,7 +4,7 @@ use crate::{
     data::ShapeError,
     gpu::GpuError,
     io::IoError,
-    model::{PaintError, PaintMethod, PatternError, SettingsError, SynthError},
+    model::{PaintError, PaintMethod, PatternError, SettingsError, SynthError, pigments::PigmentError},
     stage::StageError,
 };
 
@@ -21,6 +21,9 @@ pub enum PipelineError {
     /// A layer of paint that no stage can work with.
     #[error(transparent)]
     Paint(#[from] PaintError),
+    /// A name that is no paint's.
+    #[error(transparent)]
+    Pigment(#[from] PigmentError),
     /// A pattern that no stage can work with.
     #[error(transparent)]
     Pattern(#[from] PatternError),
