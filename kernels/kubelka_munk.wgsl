@@ -7,12 +7,11 @@
 // Twin: reference::kubelka_munk.
 #import thread
 #import film
-#import painted
 
 struct Params {
     texels: u32,
     layers: u32,
-    // 1 if `between` has what earlier batches left
+    // 1 if earlier batches left something
     continues: u32,
     // 1 if another batch follows
     continued: u32,
@@ -30,28 +29,10 @@ struct Layer {
     relief: f32,
     // S x thickness
     scattering: vec3<f32>,
+    _pad0: f32,
     // of its surface: reflectance at normal incidence and GGX alpha
-    f0: f32,
-    roughness: f32,
-    _pad0: f32,
-    _pad1: f32,
-    _pad2: f32,
-}
-
-// The layers laid so far.
-struct Stack {
-    // reflectance over the ground, held to 1
-    over_ground: vec3<f32>,
-    _pad0: f32,
-    // reflectance over black, R
-    over_black: vec3<f32>,
-    _pad1: f32,
-    // T
-    transmittance: vec3<f32>,
-    _pad2: f32,
-    // what the ground has above 1
-    excess: vec3<f32>,
-    _pad3: f32,
+    coat: vec2<f32>,
+    _pad1: vec2<f32>,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
@@ -59,12 +40,16 @@ struct Stack {
 @group(0) @binding(1) var<storage, read> layers: array<Layer>;
 // [layer][texel], drawn thickness 0..1
 @group(0) @binding(2) var<storage, read> drawn: array<f32>;
-// [texel], of the ground and then of the paint on it
-@group(0) @binding(3) var<storage, read_write> painted: array<PaintedTexel>;
+// [texel], rgb rho_d of the ground and, after the last batch, of the paint on it; w coverage, how much of the texel is painted
+@group(0) @binding(3) var<storage, read_write> painted: array<vec4<f32>>;
+// [texel], of the topmost surface: reflectance at normal incidence and GGX alpha
+@group(0) @binding(4) var<storage, read_write> coats: array<vec2<f32>>;
 // [texel], texel widths, positive outwards
-@group(0) @binding(4) var<storage, read_write> heights: array<f32>;
-// [texel] where there are several batches
-@group(0) @binding(5) var<storage, read_write> between: array<Stack>;
+@group(0) @binding(5) var<storage, read_write> heights: array<f32>;
+// What one batch leaves to the next, [texel], rgb: reflectance over the ground held to 1, over black, and transmittance
+@group(0) @binding(6) var<storage, read_write> over_ground: array<vec4<f32>>;
+@group(0) @binding(7) var<storage, read_write> over_black: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> transmittance: array<vec4<f32>>;
 
 const SIZE: u32 = 64u;
 
@@ -74,15 +59,19 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if texel >= params.texels {
         return;
     }
-    var paint = painted[texel];
+    let ground = painted[texel].rgb;
+    var coverage = painted[texel].w;
+    var coat = coats[texel];
     var height = heights[texel];
-    var stack: Stack;
+    let white = min(ground, vec3(1.0));
+    // Of the layers laid so far.
+    var reflected = white;
+    var black = vec3(0.0);
+    var passed = vec3(1.0);
     if params.continues == 1u {
-        stack = between[texel];
-    } else {
-        stack.over_ground = min(paint.reflectance, vec3(1.0));
-        stack.transmittance = vec3(1.0);
-        stack.excess = paint.reflectance - stack.over_ground;
+        reflected = over_ground[texel].rgb;
+        black = over_black[texel].rgb;
+        passed = transmittance[texel].rgb;
     }
     for (var index = 0u; index < params.layers; index++) {
         let thickness = drawn[index * params.texels + texel];
@@ -90,22 +79,24 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
             continue;
         }
         let layer = layers[index];
-        let coat = film(layer.scattering * thickness, layer.absorption * thickness);
-        stack.transmittance *= through(coat, stack.over_black);
-        stack.over_black = over_substrate(coat, stack.over_black);
-        stack.over_ground = over_substrate(coat, stack.over_ground);
+        let sheet = film(layer.scattering * thickness, layer.absorption * thickness);
+        passed *= through(sheet, black);
+        black = over_substrate(sheet, black);
+        reflected = over_substrate(sheet, reflected);
         height += layer.relief * thickness;
-        // Of what is covered, the share that this layer's surface is.
+        // Of what is covered, the share in which this layer is the topmost.
         let covering = smoothstep(0.0, params.closed, thickness);
-        paint.coverage = 1.0 - (1.0 - paint.coverage) * (1.0 - covering);
-        let top = covering / max(paint.coverage, 1e-20);
-        paint.f0 = mix(paint.f0, layer.f0, top);
-        paint.roughness = mix(paint.roughness, layer.roughness, top);
+        coverage = 1.0 - (1.0 - coverage) * (1.0 - covering);
+        coat = mix(coat, layer.coat, covering / max(coverage, 1e-20));
     }
-    paint.reflectance = stack.over_ground + stack.transmittance * stack.transmittance * stack.excess;
-    painted[texel] = paint;
+    coats[texel] = coat;
     heights[texel] = height;
     if params.continued == 1u {
-        between[texel] = stack;
+        painted[texel] = vec4(ground, coverage);
+        over_ground[texel] = vec4(reflected, 0.0);
+        over_black[texel] = vec4(black, 0.0);
+        transmittance[texel] = vec4(passed, 0.0);
+    } else {
+        painted[texel] = vec4(reflected + passed * passed * (ground - white), coverage);
     }
 }

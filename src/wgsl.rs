@@ -101,8 +101,6 @@ sources! {
     NORMALS = "kernels" "normals";
     /// Eight samples as halves.
     OCTET = "kernels/common" "octet";
-    /// A texel's paint.
-    PAINTED = "kernels/common" "painted";
     /// Drawn thickness of a procedural pattern.
     PATTERN = "kernels" "pattern";
     /// Exact quantile per texel and channel.

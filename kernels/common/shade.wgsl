@@ -25,13 +25,15 @@ fn unpainted_radiance(texel: u32, normal: vec3<f32>, lit: f32) -> vec3<f32> {
 // of 1 - F over the hemisphere, so that what is not reflected is what the diffuse part gets (Kelemen, Szirmay-Kalos 2001).
 // Schlick's F has the cosine-weighted mean f0 + (1 - f0)/21. A normal that turns from the view further than the base plane does
 // is taken at the plane's angle: normals on a rim average in the side that is hidden, and would draw it dark.
-fn painted_radiance(paint: PaintedTexel, normal: vec3<f32>) -> vec3<f32> {
+fn painted_radiance(texel: u32) -> vec3<f32> {
     let view = scene.view.xyz;
     let light = scene.light.xyz;
+    let normal = normals[texel].xyz;
+    let f0 = coats[texel].x;
     let cos_light = max(dot(normal, light), 0.0);
-    let through = (1.0 - schlick(paint.f0, cos_light)) * (1.0 - schlick(paint.f0, max(dot(normal, view), view.z)));
-    let entering = through / ((1.0 - paint.f0) * (20.0 / 21.0));
-    return entering * paint.reflectance * cos_light + ggx_specular(normal, view, light, paint.roughness, paint.f0);
+    let through = (1.0 - schlick(f0, cos_light)) * (1.0 - schlick(f0, max(dot(normal, view), view.z)));
+    let entering = through / ((1.0 - f0) * (20.0 / 21.0));
+    return entering * painted[texel].rgb * cos_light + ggx_specular(normal, view, light, coats[texel].y, f0);
 }
 
 fn weights_of(cell: Cell) -> vec4<f32> {
@@ -56,15 +58,14 @@ fn radiance_at(base: vec2<f32>) -> vec3<f32> {
     var bare = 0.0;
     for (var corner = 0u; corner < 4u; corner++) {
         let texel = cell.texels[corner];
-        let paint = painted[texel];
-        let coverage = paint.coverage * weights[corner];
+        let coverage = painted[texel].w * weights[corner];
         bare += weights[corner] - coverage;
         if coverage > 0.0 {
             if scene.blended == 1u {
                 // A colour in the picture, which knows of no surface.
-                radiance += coverage * paint.reflectance * max(scene.light.z, 0.0);
+                radiance += coverage * painted[texel].rgb * max(scene.light.z, 0.0);
             } else {
-                radiance += visible * coverage * painted_radiance(paint, normals[texel].xyz);
+                radiance += visible * coverage * painted_radiance(texel);
             }
         }
         if scene.frame == FRAME_PLANE && weights[corner] > coverage {

@@ -6,9 +6,9 @@
 use super::{PipelineError, Progress, tiles::run};
 use crate::{
     data::{Map, Material, Painted, Recipe},
-    gpu::{Buffer, Gpu},
+    gpu::{Buffer, Gpu, GpuError, Recorder},
     model::{Layer, PaintMethod, Pattern},
-    stage::{self, PaintStack, PaintedTexel},
+    stage::{self, PaintStack},
 };
 
 /// Texels of the largest plane that is painted: what an index of the kernels can count, and far more than an adapter holds.
@@ -71,13 +71,13 @@ impl<'g> Painter<'g> {
         let (size, texels) = ([stage::count(columns), stage::count(rows)], columns * rows);
         let heights = ground.painted.as_ref().map_or(&ground.height, |painted| &painted.height);
         let heights = gpu.upload("height", heights.values())?;
-        let painted = gpu.upload("painted", &painted_texels(ground))?;
+        let (painted, coats) = upload_paint(gpu, ground)?;
 
         // As many layers at a time as one binding holds drawn thicknesses of.
         let layer_bytes = (texels * size_of::<f32>()) as u64;
         let batch = usize::try_from(gpu.max_array_bytes() / layer_bytes).unwrap_or(usize::MAX).clamp(1, recipe.layers.len().max(1));
         let drawn = gpu.fresh("drawn", batch * texels)?;
-        let mut stack = PaintStack::new(gpu, painted, heights, recipe.layers.len(), batch)?;
+        let mut stack = PaintStack::new(gpu, painted, coats, heights, recipe.layers.len(), batch)?;
         for layers in recipe.layers.chunks(batch) {
             for (index, layer) in layers.iter().enumerate() {
                 run(gpu, progress, "pattern", [texels, 1], |recorder| self.draw(recorder, layer, recipe, size, &drawn, index))?;
@@ -112,15 +112,15 @@ impl<'g> Painter<'g> {
             images,
             height: map(stack.heights.read(gpu)?)?,
             normal: Map::new(columns, rows, normals.read(gpu)?.into_iter().map(|[x, y, z, _]| [x, y, z]).collect())?,
-            reflectance: painted.map(|texel| texel.reflectance),
-            coverage: painted.map(|texel| texel.coverage),
-            coat: painted.map(|texel| [texel.f0, texel.roughness]),
+            reflectance: painted.map(|&[r, g, b, _]| [r, g, b]),
+            coverage: painted.map(|&[.., coverage]| coverage),
+            coat: Map::new(columns, rows, stack.coats.read(gpu)?)?,
         })
     }
 
     /// Draws the pattern of `layer` as number `index` of `drawn`.
     fn draw(
-        &self, recorder: &mut crate::gpu::Recorder<'_>, layer: &Layer, recipe: &Recipe, size: [u32; 2], drawn: &Buffer<f32>, index: usize,
+        &self, recorder: &mut Recorder<'_>, layer: &Layer, recipe: &Recipe, size: [u32; 2], drawn: &Buffer<f32>, index: usize,
     ) -> Result<(), PipelineError> {
         Ok(match layer.pattern {
             Pattern::Image { image } => {
@@ -132,13 +132,19 @@ impl<'g> Painter<'g> {
     }
 }
 
-/// The paint of every texel of `material`, where there is none the bare material.
-pub(super) fn painted_texels(material: &Material) -> Vec<PaintedTexel> {
+/// Reflectance and coverage of the paint on `material`, and its surfaces; where there is none the bare material's, and nothing.
+pub(super) fn upload_paint(gpu: &Gpu, material: &Material) -> Result<(Buffer<[f32; 4]>, Buffer<[f32; 2]>), GpuError> {
+    let with = |reflectance: &Map<[f32; 3]>, coverage: &mut dyn Iterator<Item = f32>| {
+        let texels: Vec<_> = reflectance.values().iter().zip(coverage).map(|(&[r, g, b], coverage)| [r, g, b, coverage]).collect();
+        gpu.upload("painted", &texels)
+    };
     match &material.painted {
-        None => material.svbrdf.diffuse.values().iter().map(|&diffuse| PaintedTexel::bare(diffuse)).collect(),
+        None => {
+            let diffuse = &material.svbrdf.diffuse;
+            Ok((with(diffuse, &mut std::iter::repeat(0.0))?, gpu.zeros("coats", diffuse.values().len())?))
+        }
         Some(Painted { reflectance, coverage, coat, .. }) => {
-            let texels = reflectance.values().iter().zip(coverage.values()).zip(coat.values());
-            texels.map(|((&reflectance, &coverage), &coat)| PaintedTexel::new(reflectance, coverage, coat)).collect()
+            Ok((with(reflectance, &mut coverage.values().iter().copied())?, gpu.upload("coats", coat.values())?))
         }
     }
 }

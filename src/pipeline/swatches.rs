@@ -7,7 +7,7 @@ use crate::{
     data::Map,
     gpu::Gpu,
     model::{Layer, Paint},
-    stage::{KubelkaMunk, PaintStack, PaintedTexel},
+    stage::{KubelkaMunk, PaintStack},
 };
 
 /// Kubelka-Munk thicknesses of the columns: from a glaze to a coat that hides its ground.
@@ -34,15 +34,24 @@ const WHITE: f32 = 0.9;
 pub fn swatches(gpu: &Gpu, paints: &[Paint], progress: &Progress) -> Result<Map<[f32; 4]>, PipelineError> {
     let kubelka_munk = KubelkaMunk::new(gpu)?;
     let [width, height] = [THICKNESSES.len() * SWATCH[0], SWATCH[1]];
-    let grounds: Vec<_> =
-        (0..width * height).map(|pixel| PaintedTexel::bare([ground(pixel % width % SWATCH[0], pixel / width); 3])).collect();
+    let grounds: Vec<_> = (0..width * height)
+        .map(|pixel| ground(pixel % width % SWATCH[0], pixel / width))
+        .map(|reflectance| [reflectance, reflectance, reflectance, 0.0])
+        .collect();
     #[expect(clippy::cast_possible_truncation, reason = "a part of the thickest")]
     let drawn: Vec<_> = (0..width * height).map(|pixel| (THICKNESSES[pixel % width / SWATCH[0]] / THICKEST) as f32).collect();
     let drawn = gpu.upload("drawn", &drawn)?;
     let stacks = run(gpu, progress, "kubelka_munk", [paints.len() * width * height, 1], |recorder| {
         let paint = |paint: &Paint| {
             let layer = Layer::new(paint.clone(), THICKEST, 0.0).checked()?;
-            let mut stack = PaintStack::new(gpu, gpu.upload("ground", &grounds)?, gpu.zeros("heights", grounds.len())?, 1, 1)?;
+            let mut stack = PaintStack::new(
+                gpu,
+                gpu.upload("ground", &grounds)?,
+                gpu.zeros("coats", grounds.len())?,
+                gpu.zeros("heights", grounds.len())?,
+                1,
+                1,
+            )?;
             kubelka_munk.record(recorder, &mut stack, &drawn, &[layer])?;
             Ok::<_, PipelineError>(stack)
         };
@@ -61,7 +70,7 @@ pub fn swatches(gpu: &Gpu, paints: &[Paint], progress: &Progress) -> Result<Map<
         let y = top + row * (height + GAP);
         sheet.write(&paint.name, [MARGIN, y + (height - LETTER) / 2]);
         for (pixel, texel) in texels.iter().enumerate() {
-            let (column, [r, g, b]) = (pixel % width, texel.reflectance);
+            let (column, [r, g, b, _]) = (pixel % width, *texel);
             sheet.set([left + column + column / SWATCH[0] * GAP, y + pixel / width], [r, g, b, 1.0]);
         }
     }

@@ -28,7 +28,7 @@ pub fn film(scattering: f64, absorption: f64) -> [f64; 2] {
     [sinh / c, b / c]
 }
 
-/// A texel's paint, as [`stage::PaintedTexel`](crate::stage::PaintedTexel) has it, and its height.
+/// A texel's paint and its height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaintedTexel {
     /// Diffuse reflectance, R, G, B.

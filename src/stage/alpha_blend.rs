@@ -1,10 +1,7 @@
 //! Paint taken for a colour: what painting is without optics, for comparison. Kernel `alpha_blend`, twin
 //! [`reference::alpha_blend`](crate::reference::alpha_blend).
 
-use super::{
-    PaintedTexel,
-    scalar::{count, single},
-};
+use super::scalar::{count, single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct,
@@ -32,13 +29,14 @@ impl AlphaBlend {
             Resource::uniform::<Params>("params"),
             Resource::read::<[f32; 4]>("colours"),
             Resource::read::<f32>("drawn"),
-            Resource::read_write::<PaintedTexel>("painted"),
+            Resource::read_write::<[f32; 4]>("painted"),
         ];
         Ok(Self { kernel: Kernel::new(gpu, &wgsl::ALPHA_BLEND, wgsl::ALL, &resources)? })
     }
 
-    /// Mixes [`Layer::colour`] of `layers`, from the bottom up, into `painted` `[texel]`, each by its drawn thickness in `drawn`
-    /// `[layer][texel]` (0 to 1). Coverage becomes 1 − Π(1 − drawn), and the reflectance is the colour of what is covered.
+    /// Mixes [`Layer::colour`] of `layers`, from the bottom up, into `painted` `[texel]` (colour of what is covered, and in the fourth
+    /// component how much of the texel that is), each by its drawn thickness in `drawn` `[layer][texel]` (0 to 1). Coverage becomes
+    /// 1 − Π(1 − drawn).
     ///
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
@@ -46,7 +44,7 @@ impl AlphaBlend {
     /// # Panics
     /// If `drawn` has too few layers: the caller's bug.
     pub fn record(
-        &self, recorder: &mut Recorder<'_>, painted: &Buffer<PaintedTexel>, drawn: &Buffer<f32>, layers: &[Layer],
+        &self, recorder: &mut Recorder<'_>, painted: &Buffer<[f32; 4]>, drawn: &Buffer<f32>, layers: &[Layer],
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
         let texels = painted.len();

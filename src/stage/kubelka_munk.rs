@@ -4,10 +4,7 @@
 //! The drawn thickness t of a layer means two things and no more: the film's thickness d = thickness·t, and the surface's rise,
 //! relief·t. A stack is laid from the bottom up, since from below it reflects otherwise than from above.
 
-use super::{
-    PaintedTexel,
-    scalar::{count, single},
-};
+use super::scalar::{count, single};
 use crate::{
     gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
     gpu_struct, model, wgsl,
@@ -18,48 +15,50 @@ gpu_struct! {
 }
 gpu_struct! {
     struct Layer {
-        absorption: [f32; 3], relief: f32, scattering: [f32; 3], f0: f32, roughness: f32, _pad0: f32, _pad1: f32, _pad2: f32
+        absorption: [f32; 3], relief: f32, scattering: [f32; 3], _pad0: f32, coat: [f32; 2], _pad1: [f32; 2]
     }
 }
-gpu_struct! {
-    /// What one batch of layers leaves to the next.
-    struct Stack {
-        over_ground: [f32; 3], _pad0: f32, over_black: [f32; 3], _pad1: f32, transmittance: [f32; 3], _pad2: f32, excess: [f32; 3], _pad3: f32
-    }
-}
-
 /// The stage's kernel on one device.
 #[derive(Debug)]
 pub struct KubelkaMunk {
     kernel: Kernel,
 }
 
-/// Layers being laid on a ground.
+/// A surface on which layers are laid.
 #[derive(Debug)]
 pub struct PaintStack {
-    /// `[texel]` reflectance, coverage and surface: of the ground, then with the paint that is laid on it.
-    pub painted: Buffer<PaintedTexel>,
+    /// `[texel]` ρ_d of the ground and, once all layers are laid, of the paint on it; the fourth component is coverage, how much of the
+    /// texel is painted, 0 to 1.
+    pub painted: Buffer<[f32; 4]>,
+    /// `[texel]` F₀ and α of the topmost paint's surface.
+    pub coats: Buffer<[f32; 2]>,
     /// `[texel]` height in texel widths, positive outwards, the paint's included.
     pub heights: Buffer<f32>,
-    between: Buffer<Stack>,
+    /// `[texel]` what one batch leaves to the next: reflectance over the ground and over black, and transmittance.
+    between: [Buffer<[f32; 4]>; 3],
     /// Layers that are laid, and that will be.
     laid: usize,
     layers: usize,
 }
 
 impl PaintStack {
-    /// A `ground` `[texel]` of `heights` `[texel]` on which `layers` layers will be laid, in batches of at most `batch`.
+    /// A ground of reflectance and coverage `painted` `[texel]`, surfaces `coats` `[texel]` and `heights` `[texel]`, on which `layers`
+    /// layers will be laid in batches of at most `batch`.
     ///
     /// # Errors
     /// [`GpuError`] if what batches leave to each other does not fit the adapter.
     ///
     /// # Panics
-    /// If the two differ in length: the caller's bug.
-    pub fn new(gpu: &Gpu, ground: Buffer<PaintedTexel>, heights: Buffer<f32>, layers: usize, batch: usize) -> Result<Self, GpuError> {
-        assert_eq!(ground.len(), heights.len(), "texels of \"{}\" and \"{}\"", ground.label(), heights.label());
+    /// If the three differ in length: the caller's bug.
+    pub fn new(
+        gpu: &Gpu, painted: Buffer<[f32; 4]>, coats: Buffer<[f32; 2]>, heights: Buffer<f32>, layers: usize, batch: usize,
+    ) -> Result<Self, GpuError> {
+        let texels = painted.len();
+        assert_eq!([coats.len(), heights.len()], [texels; 2], "texels of \"{}\" and \"{}\"", coats.label(), heights.label());
         // A single batch leaves nothing.
-        let between = gpu.fresh("between batches", if layers > batch { ground.len() } else { 1 })?;
-        Ok(Self { painted: ground, heights, between, laid: 0, layers })
+        let left = if layers > batch { texels } else { 1 };
+        let between = [gpu.fresh("over ground", left)?, gpu.fresh("over black", left)?, gpu.fresh("transmittance", left)?];
+        Ok(Self { painted, coats, heights, between, laid: 0, layers })
     }
 }
 
@@ -73,9 +72,12 @@ impl KubelkaMunk {
             Resource::uniform::<Params>("params"),
             Resource::read::<Layer>("layers"),
             Resource::read::<f32>("drawn"),
-            Resource::read_write::<PaintedTexel>("painted"),
+            Resource::read_write::<[f32; 4]>("painted"),
+            Resource::read_write::<[f32; 2]>("coats"),
             Resource::read_write::<f32>("heights"),
-            Resource::read_write::<Stack>("between"),
+            Resource::read_write::<[f32; 4]>("over_ground"),
+            Resource::read_write::<[f32; 4]>("over_black"),
+            Resource::read_write::<[f32; 4]>("transmittance"),
         ];
         Ok(Self { kernel: Kernel::new(gpu, &wgsl::KUBELKA_MUNK, wgsl::ALL, &resources)? })
     }
@@ -108,13 +110,17 @@ impl KubelkaMunk {
         let layers: Vec<_> = layers.iter().map(Layer::from).collect();
         let params = gpu.uniform("kubelka_munk params", &params)?;
         let layers = gpu.upload("layers", &layers)?;
+        let [over_ground, over_black, transmittance] = &stack.between;
         let binds = [
             bind("params", &params),
             bind("layers", &layers),
             bind("drawn", drawn),
             bind("painted", &stack.painted),
+            bind("coats", &stack.coats),
             bind("heights", &stack.heights),
-            bind("between", &stack.between),
+            bind("over_ground", over_ground),
+            bind("over_black", over_black),
+            bind("transmittance", transmittance),
         ];
         recorder.dispatch(&self.kernel, &binds, Grid::threads(texels))?;
         stack.laid = laid;
@@ -130,8 +136,7 @@ impl From<&model::Layer> for Layer {
             absorption: at_full(layer.paint.k),
             relief: single(layer.relief),
             scattering: at_full(layer.paint.s),
-            f0: single(coat.f0()),
-            roughness: single(coat.alpha()),
+            coat: [coat.f0(), coat.alpha()].map(single),
             ..Default::default()
         }
     }

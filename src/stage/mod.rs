@@ -72,7 +72,7 @@ pub use seen_surface::{Seen, SeenSurface};
 pub use shading::{Shaded, Shading};
 pub use specular_residual::SpecularResidual;
 pub use specular_scale::SpecularScale;
-pub use surface::{PaintedTexel, Surface};
+pub use surface::Surface;
 pub use synth::{Rendered, Synth, SynthSurface};
 pub use tile::{SampleDirections, Tile, upload_directions};
 

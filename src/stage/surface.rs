@@ -4,38 +4,8 @@ use super::{HeightField, Scene, scalar::count};
 use crate::{
     data::{Direction, MAX_LOBES},
     gpu::{Bind, Buffer, Gpu, GpuError, Resource, bind},
-    gpu_struct,
     model::{Frame, PaintMethod, Relief},
 };
-
-gpu_struct! {
-    /// A texel's paint, as it is rendered (`kernels/common/painted.wgsl`).
-    pub struct PaintedTexel {
-        /// Diffuse reflectance of the paint on what lies below it, R, G, B; on bare material that of the material.
-        pub reflectance: [f32; 3],
-        /// How much of the texel is painted, 0 to 1.
-        pub coverage: f32,
-        /// Reflectance of the topmost paint's surface at normal incidence.
-        pub f0: f32,
-        /// α of its GGX lobe.
-        pub roughness: f32,
-        _pad: [f32; 2],
-    }
-}
-
-impl PaintedTexel {
-    /// Paint of `reflectance` that covers the part `coverage`, with a surface of F₀ and α `coat`.
-    #[must_use]
-    pub fn new(reflectance: [f32; 3], coverage: f32, coat: [f32; 2]) -> Self {
-        Self { reflectance, coverage, f0: coat[0], roughness: coat[1], _pad: [0.0; 2] }
-    }
-
-    /// Bare material of `diffuse` reflectance.
-    #[must_use]
-    pub fn bare(diffuse: [f32; 3]) -> Self {
-        Self::new(diffuse, 0.0, [0.0; 2])
-    }
-}
 
 /// A material's maps in adapter memory, all `[row][column]` where nothing else is said.
 #[derive(Debug)]
@@ -52,8 +22,10 @@ pub struct Surface {
     pub specular: Buffer<[f32; 4]>,
     /// `[lobe][row][column]` (C_x, C_y, C_z, n) of the unpainted material's lobes.
     pub lobes: Buffer<[f32; 4]>,
-    /// The paint.
-    pub painted: Buffer<PaintedTexel>,
+    /// ρ_d of the paint on what lies below it, R, G, B; the fourth component is how much of the texel is painted, 0 to 1.
+    pub painted: Buffer<[f32; 4]>,
+    /// F₀ and α of the topmost paint's surface.
+    pub coats: Buffer<[f32; 2]>,
     /// What it does to what lies below it.
     pub method: PaintMethod,
 }
@@ -62,8 +34,8 @@ impl Surface {
     /// What a pass that imports `surface` declares.
     pub(crate) fn resources() -> Vec<Resource> {
         let mut resources = HeightField::resources().to_vec();
-        resources.extend(["diffuse", "specular", "lobes"].map(Resource::read::<[f32; 4]>));
-        resources.push(Resource::read::<PaintedTexel>("painted"));
+        resources.extend(["diffuse", "specular", "lobes", "painted"].map(Resource::read::<[f32; 4]>));
+        resources.push(Resource::read::<[f32; 2]>("coats"));
         resources
     }
 
@@ -75,6 +47,7 @@ impl Surface {
             bind("specular", &self.specular),
             bind("lobes", &self.lobes),
             bind("painted", &self.painted),
+            bind("coats", &self.coats),
         ]);
         binds
     }

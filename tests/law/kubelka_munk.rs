@@ -1,12 +1,11 @@
 use overpaint::{
     gpu::Gpu,
     model::{Film, Layer, kubelka_munk::opaque_reflectance, pigments},
-    stage::PaintedTexel,
 };
 
 use crate::support::{
     Worst, hold,
-    paint::{grey, lay, values},
+    paint::{Texel, grey, lay},
     random::Random,
     worst_difference,
 };
@@ -30,13 +29,8 @@ const STACKED: [f64; 2] = [0.278571382790, 0.196505775840];
 
 /// ρ_d and coverage of `grounds` under `layers`, the bottom one first, each with its thickness at every texel.
 fn paint(gpu: &Gpu, grounds: &[[f32; 4]], layers: &[(&Layer, &[f32])]) -> Vec<[f32; 4]> {
-    let grounds: Vec<_> = grounds.iter().map(|&[r, g, b, coverage]| PaintedTexel::new([r, g, b], coverage, [0.0; 2])).collect();
-    let (painted, _) = lay(gpu, &grounds, &vec![0.0; grounds.len()], layers, 4);
-    let values = |texel: PaintedTexel| {
-        let [r, g, b] = texel.reflectance;
-        [r, g, b, texel.coverage]
-    };
-    painted.into_iter().map(values).collect()
+    let grounds: Vec<_> = grounds.iter().map(|&painted| Texel { painted, ..Texel::bare([0.0; 3]) }).collect();
+    lay(gpu, &grounds, layers, 4).into_iter().map(|texel| texel.painted).collect()
 }
 
 /// The larger error of a film's two values.
@@ -226,31 +220,28 @@ fn coverage_is_the_product_of_bare_parts(gpu: &Gpu) {
 
 /// The same layers one by one, in threes and all at once: the same bits, over grounds above 1 too.
 fn batches_make_no_difference(gpu: &Gpu) {
-    let grounds: Vec<_> = random_grounds(300).into_iter().map(|[r, g, b, _]| PaintedTexel::bare([r, g, b])).collect();
-    let heights = [0.25_f32; 300];
+    let grounds: Vec<_> = random_grounds(300).into_iter().map(|[r, g, b, _]| Texel::bare([r, g, b])).collect();
     let mut random = Random::new(9);
     let layers: Vec<_> = pigments::all().map(|pigment| Layer::new(pigment.into(), 0.2, 0.3)).collect();
     let drawn: Vec<Vec<f32>> = layers.iter().map(|_| (0..300).map(|_| random.unit() as f32).collect()).collect();
     let layers: Vec<_> = layers.iter().zip(&drawn).map(|(layer, drawn)| (layer, &drawn[..])).collect();
-    let [at_once, in_threes, one_by_one] = [layers.len(), 3, 1].map(|batch| {
-        let (painted, heights) = lay(gpu, &grounds, &heights, &layers, batch);
-        (painted.iter().map(values).collect::<Vec<_>>(), heights)
-    });
+    let [at_once, in_threes, one_by_one] = [layers.len(), 3, 1].map(|batch| lay(gpu, &grounds, &layers, batch));
     assert!(at_once == in_threes && at_once == one_by_one);
 }
 
 /// Two layers rise by the sum of their reliefs, exactly in binary fractions; where nothing is drawn no bit changes.
 fn layers_add_up_and_bare_texels_stay(gpu: &Gpu) {
     let layers = [0.5, 2.0].map(|relief| Layer { relief, ..grey(1.0, 0.3) });
-    let grounds = [[0.3, 0.2, 1.4], [0.7, 0.1, 1.1], [0.2; 3], [0.9, 1.5, 0.0]].map(PaintedTexel::bare);
     let heights = [-1.5_f32, 0.1, 3.0, 0.7];
+    let mut grounds = [[0.3, 0.2, 1.4], [0.7, 0.1, 1.1], [0.2; 3], [0.9, 1.5, 0.0]].map(Texel::bare);
+    grounds.iter_mut().zip(heights).for_each(|(ground, height)| ground.height = height);
     let drawn = [1.0_f32, 0.0, 0.5, 0.0];
-    let (painted, raised) = lay(gpu, &grounds, &heights, &[(&layers[0], &drawn), (&layers[1], &drawn)], 2);
-    assert_eq!(raised, [1.0, heights[1], 4.25, heights[3]]);
+    let painted = lay(gpu, &grounds, &[(&layers[0], &drawn), (&layers[1], &drawn)], 2);
+    assert_eq!(painted.iter().map(|texel| texel.height).collect::<Vec<_>>(), [1.0, heights[1], 4.25, heights[3]]);
     for bare in [1, 3] {
-        assert_eq!(values(&painted[bare])[3..], values(&grounds[bare])[3..]);
+        assert_eq!(painted[bare].values()[3..], grounds[bare].values()[3..]);
         // Above 1 the ground is taken apart and put together again.
-        hold("kubelka_munk: no layer", worst_difference(values(&painted[bare]), values(&grounds[bare])), 1.2e-7);
+        hold("kubelka_munk: no layer", worst_difference(painted[bare].values(), grounds[bare].values()), 1.2e-7);
     }
 }
 
@@ -259,10 +250,10 @@ fn the_topmost_surface_shows(gpu: &Gpu) {
     let below = Layer { refractive_index: 1.4, roughness: 0.6, ..grey(1.0, 1.0) };
     let above = Layer { refractive_index: 2.0, roughness: 0.2, ..grey(1.0, 1.0) };
     let drawn = [0.0_f32, 0.025, 1.0];
-    let (painted, _) = lay(gpu, &[PaintedTexel::bare([0.5; 3]); 3], &[0.0; 3], &[(&below, &[1.0; 3]), (&above, &drawn)], 2);
+    let painted = lay(gpu, &[Texel::bare([0.5; 3]); 3], &[(&below, &[1.0; 3]), (&above, &drawn)], 2);
     for (texel, share) in painted.iter().zip([0.0, 0.5, 1.0]) {
         let mixed = |below: f64, above: f64| below + share * (above - below);
         let expected = [mixed(below.coat().f0(), above.coat().f0()), mixed(0.6, 0.2)];
-        hold("kubelka_munk: the topmost surface", worst_difference(values(texel)[4..].iter().copied(), expected), 1e-7);
+        hold("kubelka_munk: the topmost surface", worst_difference(texel.values()[4..].iter().copied(), expected), 1e-7);
     }
 }

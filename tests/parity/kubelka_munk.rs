@@ -3,12 +3,11 @@ use overpaint::{
     gpu::Gpu,
     model::{Layer, Paint},
     reference::{self, PaintedTexel},
-    stage,
 };
 
 use crate::support::{
     Worst, hold,
-    paint::{lay, values},
+    paint::{Texel, lay},
     probe::probe,
     random::Random,
     worst_difference,
@@ -48,9 +47,10 @@ pub fn random_drawing(random: &mut Random, width: usize, height: usize) -> Map<f
 }
 
 /// The ground as the adapter has it.
-pub fn texels(ground: &Map<PaintedTexel>) -> Vec<stage::PaintedTexel> {
+pub fn texels(ground: &Map<PaintedTexel>) -> Vec<Texel> {
     let texel = |texel: &PaintedTexel| {
-        stage::PaintedTexel::new(texel.reflectance.map(|v| v as f32), texel.coverage as f32, texel.coat.map(|v| v as f32))
+        let [r, g, b] = texel.reflectance.map(|v| v as f32);
+        Texel { painted: [r, g, b, texel.coverage as f32], coat: texel.coat.map(|v| v as f32), height: texel.height as f32 }
     };
     ground.values().iter().map(texel).collect()
 }
@@ -71,16 +71,15 @@ fn agrees_with_its_twin(gpu: &Gpu) {
         let layers: Vec<_> = (0..count).map(|_| (random_layer(&mut random), random_drawing(&mut random, width, height))).collect();
         let drawn: Vec<Vec<f32>> = layers.iter().map(|(_, drawn)| drawn.values().iter().map(|&t| t as f32).collect()).collect();
         let on_gpu: Vec<_> = layers.iter().zip(&drawn).map(|((layer, _), drawn)| (layer, &drawn[..])).collect();
-        let heights: Vec<_> = ground.values().iter().map(|texel| texel.height as f32).collect();
-        let (found, found_heights) = lay(gpu, &texels(&ground), &heights, &on_gpu, batch);
+        let found = lay(gpu, &texels(&ground), &on_gpu, batch);
 
         let expected = reference::kubelka_munk(&ground, &layers.iter().map(|(layer, drawn)| (layer, drawn)).collect::<Vec<_>>());
         let expected_heights = expected.values().iter().map(|texel| texel.height);
         // A dozen roundings of values up to 1.5 (1.2e-7 each at most), and exp to 3 units in the last place, for each of up to 7 layers.
-        let worst = worst_difference(found.iter().flat_map(values), expected.values().iter().flat_map(expected_values));
+        let worst = worst_difference(found.iter().flat_map(Texel::values), expected.values().iter().flat_map(expected_values));
         hold("kubelka_munk: reflectance, coverage, coat", worst, 2e-6);
         // Up to 24 texel widths, a rounding a layer.
-        hold("kubelka_munk: heights", worst_difference(found_heights.into_iter().map(f64::from), expected_heights), 8e-6);
+        hold("kubelka_munk: heights", worst_difference(found.iter().map(|texel| f64::from(texel.height)), expected_heights), 8e-6);
     }
 }
 

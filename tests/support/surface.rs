@@ -77,13 +77,6 @@ pub fn upload(gpu: &Gpu, surface: &reference::Surface) -> stage::Surface {
     let three = |map: &Map<[f64; 3]>| map.values().iter().map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]).collect::<Vec<_>>();
     let four = |map: &Map<[f64; 4]>| map.values().iter().map(|v| v.map(|x| x as f32)).collect::<Vec<_>>();
     let upload = |values: Vec<[f32; 4]>| gpu.upload("map", &values).expect("fits");
-    let painted: Vec<_> = surface
-        .painted
-        .values()
-        .iter()
-        .zip(surface.coat.values())
-        .map(|(&[r, g, b, coverage], coat)| stage::PaintedTexel::new([r, g, b].map(|v| v as f32), coverage as f32, coat.map(|v| v as f32)))
-        .collect();
     let heights: Vec<_> = surface.heights.values().iter().map(|&z| z as f32).collect();
     stage::Surface {
         field: stage::HeightField {
@@ -98,7 +91,8 @@ pub fn upload(gpu: &Gpu, surface: &reference::Surface) -> stage::Surface {
         diffuse: upload(three(&surface.diffuse)),
         specular: upload(surface.lobes.iter().flat_map(|(specular, _)| three(specular)).collect()),
         lobes: upload(surface.lobes.iter().flat_map(|(_, lobe)| four(lobe)).collect()),
-        painted: gpu.upload("painted", &painted).expect("fits"),
+        painted: upload(four(&surface.painted)),
+        coats: gpu.upload("coats", &surface.coat.values().iter().map(|coat| coat.map(|x| x as f32)).collect::<Vec<_>>()).expect("fits"),
         method: surface.method,
     }
 }
