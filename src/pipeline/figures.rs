@@ -48,7 +48,7 @@ const VIEW: (f64, f64) = (30.0, 270.0);
 const LIGHT: (f64, f64) = (55.0, 110.0);
 const SIZE: [u32; 2] = [384, 344];
 /// Texels that are shown along each edge at least: smaller samples lie side by side.
-const LEAST_TEXELS: usize = 96;
+const LEAST_TEXELS: usize = 64;
 
 /// Makes the figures of each of `materials`, which go by their names, and writes them with their page into `folder`, which must exist.
 ///

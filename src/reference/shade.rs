@@ -63,7 +63,7 @@ impl Surface {
         for (texel, weight) in at_hit {
             let [r, g, b, coverage] = self.painted[texel];
             match self.method {
-                PaintMethod::KubelkaMunk => add(weight * visible * coverage, self.painted(texel, view, light)),
+                PaintMethod::KubelkaMunk => add(weight * coverage, self.painted(texel, view, light, visible)),
                 PaintMethod::AlphaBlend => add(weight * coverage * light.z, [r, g, b]),
             }
         }
@@ -101,15 +101,18 @@ impl Surface {
     }
 
     /// Kubelka-Munk diffuse (1 − F(θ_i))(1 − F(θ_o))ρ/(1 − F̄) with Schlick's F (Kelemen, Szirmay-Kalos 2001), normals turned from
-    /// the view further than the base plane counted as that plane, and the coat's facets on top.
-    fn painted(&self, texel: (usize, usize), view: DVec3, light: DVec3) -> [f64; 3] {
+    /// the view further than the base plane counted as that plane, and the coat's facets on top, of the share `visible` of the light; and the
+    /// same of light from everywhere, of which the mean of (1 − F)/(1 − F̄) enters: all.
+    fn painted(&self, texel: (usize, usize), view: DVec3, light: DVec3, visible: f64) -> [f64; 3] {
         let normal = DVec3::from_array(self.normals[texel]);
         let [f0, alpha] = self.coat[texel];
         let specular = ggx_specular(normal, view, light, alpha, f0);
         let (cosine_view, cosine_light) = (normal.dot(view), normal.dot(light).max(0.0));
         // Mean over the hemisphere, weighted by the cosine: ∫ 2c(1 − c)⁵ dc = 1/21.
         let fresnel_mean = f0 + (1.0 - f0) / 21.0;
-        let entering = (1.0 - schlick(f0, cosine_light)) * (1.0 - schlick(f0, cosine_view.max(view.z))) / (1.0 - fresnel_mean);
-        std::array::from_fn(|channel| entering * self.painted[texel][channel] * cosine_light + specular)
+        let leaving = 1.0 - schlick(f0, cosine_view.max(view.z));
+        let direct = (1.0 - self.ambient) * visible * cosine_light * (1.0 - schlick(f0, cosine_light)) / (1.0 - fresnel_mean);
+        let around = self.ambient * light.z;
+        std::array::from_fn(|channel| self.painted[texel][channel] * leaving * (direct + around) + visible * specular)
     }
 }
