@@ -172,8 +172,12 @@ fn as_map<S: Serializer>(conventions: &[Convention], serializer: S) -> Result<S:
 
 /// A layer of paint.
 fn in_a_line(layer: &Layer) -> String {
-    let Layer { paint, thickness, relief, refractive_index, roughness, .. } = layer;
-    format!("{}, thickness {thickness}, relief {relief}, refractive index {refractive_index}, roughness {roughness}", paint.name)
+    let Layer { paint, pattern, thickness, relief, refractive_index, roughness, .. } = layer;
+    format!(
+        "{}, {}, thickness {thickness}, relief {relief}, refractive index {refractive_index}, roughness {roughness}",
+        paint.name,
+        pattern.kind()
+    )
 }
 
 /// How a texel's fit ended, in words.

@@ -117,6 +117,21 @@ impl Pattern {
         }
     }
 
+    /// The name of its kind, as recipes have it.
+    #[must_use]
+    pub fn kind(self) -> &'static str {
+        match self {
+            Self::Uniform { .. } => "uniform",
+            Self::Splash { .. } => "splash",
+            Self::Brush { .. } => "brush",
+            Self::Flower { .. } => "flower",
+            Self::Spatter { .. } => "spatter",
+            Self::Stripes { .. } => "stripes",
+            Self::Noise { .. } => "noise",
+            Self::Image { .. } => "image",
+        }
+    }
+
     /// The seed; 0 where chance has no part.
     #[must_use]
     pub fn seed(self) -> u32 {

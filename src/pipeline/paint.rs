@@ -19,6 +19,7 @@ const MAX_TEXELS: usize = 1 << 28;
 pub struct Painter<'g> {
     gpu: &'g Gpu,
     pattern: stage::Pattern,
+    pattern_image: stage::PatternImage,
     kubelka_munk: stage::KubelkaMunk,
     alpha_blend: stage::AlphaBlend,
     normals: stage::Normals,
@@ -33,6 +34,7 @@ impl<'g> Painter<'g> {
         Ok(Self {
             gpu,
             pattern: stage::Pattern::new(gpu)?,
+            pattern_image: stage::PatternImage::new(gpu)?,
             kubelka_munk: stage::KubelkaMunk::new(gpu)?,
             alpha_blend: stage::AlphaBlend::new(gpu)?,
             normals: stage::Normals::new(gpu)?,
@@ -49,6 +51,8 @@ impl<'g> Painter<'g> {
     pub fn paint(&self, material: &Material, recipe: &Recipe, method: PaintMethod, progress: &Progress) -> Result<Material, PipelineError> {
         for layer in &recipe.layers {
             layer.clone().checked()?;
+            layer.pattern.checked()?;
+            layer.placement.checked()?;
         }
         let [pieces_right, pieces_down] = recipe.repeat;
         let [width, height] = material.size();
@@ -122,13 +126,14 @@ impl<'g> Painter<'g> {
     fn draw(
         &self, recorder: &mut Recorder<'_>, layer: &Layer, recipe: &Recipe, size: [u32; 2], drawn: &Buffer<f32>, index: usize,
     ) -> Result<(), PipelineError> {
-        Ok(match layer.pattern {
+        match layer.pattern {
             Pattern::Image { image } => {
-                let _image = recipe.images.get(image).ok_or(PipelineError::NoSuchImage { image, images: recipe.images.len() })?;
-                unimplemented!()
+                let found = recipe.images.get(image).ok_or(PipelineError::NoSuchImage { image, images: recipe.images.len() })?;
+                self.pattern_image.record(recorder, &found.drawn, layer.placement, size, drawn, index)?;
             }
             pattern => self.pattern.record(recorder, pattern, layer.placement, size, drawn, index)?,
-        })
+        }
+        Ok(())
     }
 }
 
