@@ -16,6 +16,7 @@ mod lpca;
 mod memory;
 mod model;
 mod output;
+mod paints;
 mod reading;
 mod reconstruct;
 mod render;
@@ -59,6 +60,7 @@ enum Command {
     Fit(fit::Fit),
     Import(import::Import),
     Info(info::Info),
+    Paints(paints::Paints),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
     Synth(synth::Synth),
@@ -79,10 +81,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
         Command::Synth(synth) => synth.run(&session),
-        Command::Info(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
+        Command::Info(_) | Command::Paints(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
             .error(clap::error::ErrorKind::ArgumentConflict, "--adapter and --timings are for commands that compute; leave them out here")
             .into()),
         Command::Info(info) => info.run(),
+        Command::Paints(paints) => paints.run(),
         Command::Adapters(adapters) => adapters.run(),
     }
 }
