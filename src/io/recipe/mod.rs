@@ -161,7 +161,7 @@ fn paints(root: &Table<'_>, folder: &Path) -> Result<Paints, Unread> {
         return Err(file.fault(RecipeFault::TooMany { found: files.len(), what: "files of paints", most: MAX_LIBRARIES }).into());
     }
     for file in files {
-        let found = paints::load(&folder.join(file.text()?)).map_err(|error| match error {
+        let found = paints::load(&folder.join(file.path()?)).map_err(|error| match error {
             IoError::Recipe(error) => Unread::Elsewhere(error),
             error => file.fault(RecipeFault::File(Box::new(error))).into(),
         })?;
