@@ -101,8 +101,28 @@ sources! {
     OCTET = "kernels/common" "octet";
     /// One layer of paint over a height field.
     PAINT_RELIEF = "kernels" "paint_relief";
-    /// Drawn thickness of a procedural pattern.
-    PATTERN = "kernels" "pattern";
+    /// Drawn thickness of a stroke of a brush.
+    PATTERN_BRUSH = "kernels" "pattern_brush";
+    /// Drawn thickness of a flower.
+    PATTERN_FLOWER = "kernels" "pattern_flower";
+    /// Drawn thickness of an image.
+    PATTERN_IMAGE = "kernels" "pattern_image";
+    /// The image reduced.
+    PATTERN_IMAGE_REDUCE = "kernels" "pattern_image_reduce";
+    /// Edges, ridges and grain of patterns.
+    PATTERN_MARKS = "kernels/common" "pattern_marks";
+    /// Drawn thickness of clouds.
+    PATTERN_NOISE = "kernels" "pattern_noise";
+    /// Where patterns are drawn.
+    PATTERN_PLANE = "kernels/common" "pattern_plane";
+    /// Drawn thickness of drops of all sizes.
+    PATTERN_SPATTER = "kernels" "pattern_spatter";
+    /// Drawn thickness of a splash.
+    PATTERN_SPLASH = "kernels" "pattern_splash";
+    /// Drawn thickness of stripes.
+    PATTERN_STRIPES = "kernels" "pattern_stripes";
+    /// The same drawn thickness everywhere.
+    PATTERN_UNIFORM = "kernels" "pattern_uniform";
     /// Exact quantile per texel and channel.
     PERCENTILE = "kernels" "percentile";
     /// Normals and albedo from radiance under known lights.

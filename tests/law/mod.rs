@@ -26,6 +26,7 @@ crate::suites! {
     paint_relief,
     path_traced,
     pattern,
+    pattern_image,
     percentile,
     photographed_sphere,
     photometric_stereo,

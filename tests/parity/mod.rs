@@ -22,6 +22,7 @@ crate::suites! {
     normals,
     paint_relief,
     pattern,
+    pattern_image,
     percentile,
     photometric_stereo,
     picture_error,
