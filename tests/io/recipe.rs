@@ -21,6 +21,7 @@ crate::suite! { plain:
     files_of_paints_are_found_beside_the_recipe,
     colours_in_every_notation_are_the_same,
     mixtures_have_the_unit_of_their_parts,
+    examples_in_the_documentation_are_right,
     no_prefix_and_no_other_byte_panics;
 }
 
@@ -178,6 +179,25 @@ fn mixtures_have_the_unit_of_their_parts() {
             ("c", None, Some("mixed of 1 a, 1 a 2")),
         ]
     );
+}
+
+fn examples_in_the_documentation_are_right() {
+    let block = |text: &str| {
+        let plain = text.replace("//! ", "").replace("//!", "");
+        let (_, rest) = plain.split_once("```toml\n").expect("has an example");
+        rest.split("```").next().unwrap_or_default().to_owned()
+    };
+    let [readme, recipes, own] =
+        [include_str!("../../README.md"), include_str!("../../src/io/recipe/mod.rs"), include_str!("../../src/io/paints/mod.rs")].map(block);
+    let paints = paints::parse("p.toml", own.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(paints.own().count(), 3);
+    let mut leaf = std::io::Cursor::new(Vec::new());
+    image::GrayImage::new(3, 2).write_to(&mut leaf, image::ImageFormat::Png).expect("encodes");
+    for (text, layers) in [(readme, 2), (recipes, 3)] {
+        let ochre = b"[paints.ochre]\nk = [1, 1, 1]\ns = [1, 1, 1]\n";
+        let read = load(&folder(&[("r.toml", text.as_bytes()), ("my_paints.toml", ochre), ("leaf.png", leaf.get_ref())]));
+        assert_eq!(read.unwrap_or_else(|error| panic!("{error}")).layers.len(), layers);
+    }
 }
 
 fn no_prefix_and_no_other_byte_panics() {

@@ -27,6 +27,7 @@ crate::suites! {
     paint,
     path_traced,
     pattern,
+    pattern_image,
     percentile,
     photographed_sphere,
     photometric_stereo,

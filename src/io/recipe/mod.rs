@@ -2,9 +2,9 @@
 //!
 //! | key | what it is |
 //! |---|---|
-//! | `library` | a file of paints or an array of up to 16, beside the recipe or by paths from there ([`paints`](super::paints)); default none |
+//! | `library` | a file of paints or an array of up to 16, beside the recipe or by paths from there ([own paints](super::paints)); default none |
 //! | `canvas.repeat` | columns and rows in which the material is laid side by side below the paint, at most 4096 in all; default `[1, 1]` |
-//! | `paints.NAME` | own paints, see [`paints`](super::paints) |
+//! | `paints.NAME` | [own paints](super::paints) |
 //! | `layer` | the layers, 1 to 256, **the bottom one first** |
 //!
 //! A layer:
