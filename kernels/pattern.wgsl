@@ -1,135 +1,160 @@
-// A procedural pattern: the thickness drawn at each texel, 0 (bare) to 1, over a plane that repeats. One thread a texel.
-// Tile coordinates: origin in the middle of the plane, x right, y up, its shorter edge 1 long (model::pattern).
-// A splash is a smooth union of capsules (Quilez 2013: polynomial smooth minimum), its edge frayed by noise, with a rim.
-// A brush stroke is noise drawn out along it.
+// A procedural pattern: the thickness drawn at each texel, 0 (bare) to 1, in cells that repeat over the plane. One thread a texel.
+// Cell coordinates: origin in the middle of the cell, x right, y up, its shorter edge 1 long (model::Placement); pattern coordinates:
+// the same, of the pattern's own frame. Nothing is drawn finer than a texel: edges are widened to one, and what is thinner fades.
+// Splash, flower and brush stroke lie within REACH of their middle and are drawn wherever a repetition of them reaches; stripes, noise
+// and spatter fill the cell, with whole periods along its edges.
 // Twin: reference::pattern.
 #import thread
-#import noise
+#import pattern_marks
+#import splash
+#import flower
+#import brush
+#import spatter
 
 struct Params {
-    width: u32,
-    height: u32,
+    // columns and rows of texels: of the plane, and of a cell
+    size: vec2<u32>,
+    cell: vec2<f32>,
+    // lengths of the cell's edges, the shorter one 1
+    edges: vec2<f32>,
+    // model::Placement: cell coordinates, cosine and sine, factor
+    offset: vec2<f32>,
+    turn: vec2<f32>,
+    scale: f32,
+    // width of a texel, pattern coordinates
+    texel: f32,
+    // repetitions that may reach a place, to either side of the nearest
+    repeats: vec2<u32>,
+    // lattice points along the cell's edges
+    lattice: vec2<u32>,
+    // stripes crossed along the cell's edges
+    wave: vec2<f32>,
     // model::Pattern::code
     pattern: u32,
     seed: u32,
-    // cosine and sine of the stroke's direction
-    along: vec2<f32>,
-    // width of the stroke, tile coordinates
-    brush: f32,
-    shapes: u32,
+    petals: u32,
+    // drawn thickness, width or covered part, whichever the pattern has
+    amount: f32,
     // index of the layer's first texel
     first: u32,
-    _pad0: u32,
-    _pad1: u32,
-    _pad2: u32,
-}
-
-struct Capsule {
-    // centres of the ends, tile coordinates
-    ends: vec4<f32>,
-    // radii at the ends
-    radii: vec2<f32>,
-    _pad: vec2<f32>,
+    _pad: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
-// [shape], of a splash
-@group(0) @binding(1) var<storage, read> shapes: array<Capsule>;
+// [row][column + 1 at the end of all], of a splash: index of the first shape near each of its bins
+@group(0) @binding(1) var<storage, read> bins: array<u32>;
+// [bin][shape], of a splash
+@group(0) @binding(2) var<storage, read> shapes: array<Capsule>;
 // [layer][row][column], drawn thickness 0..1
-@group(0) @binding(2) var<storage, read_write> drawn: array<f32>;
+@group(0) @binding(3) var<storage, read_write> drawn: array<f32>;
 
 const SIZE: u32 = 64u;
 const SPLASH: u32 = 1u;
 const BRUSH: u32 = 2u;
+const FLOWER: u32 = 3u;
+const SPATTER: u32 = 4u;
+const STRIPES: u32 = 5u;
+const NOISE: u32 = 6u;
 
-// Shapes nearer than this flow together.
-const FLOW: f32 = 0.035;
-// Depth inside the outline at which paint is closed, and depth and width of the rim.
-const EDGE: f32 = 0.009;
-const RIM_DEPTH: f32 = 0.013;
-const RIM_WIDTH: f32 = 0.009;
+// Where splash, flower and brush stroke end, pattern coordinates.
+const REACH: f32 = 0.52;
 
-// Lengths of the plane's edges, the shorter one 1.
-fn edges() -> vec2<f32> {
-    let size = vec2(f32(params.width), f32(params.height));
-    return size / min(size.x, size.y);
-}
-
-// Noise of `count` lattice points along the shorter edge that closes at the edges of the plane.
-fn tiled_noise(place: vec2<f32>, count: u32, seed: u32) -> f32 {
-    let size = vec2(params.width, params.height);
-    let shorter = min(size.x, size.y);
-    let period = (2u * count * size + shorter) / (2u * shorter);
-    return noise((place / edges() + 0.5) * vec2<f32>(period), period, seed);
-}
-
-// Distance from `place` to a capsule's outline in its nearest repetition, negative inside.
-fn outline(place: vec2<f32>, capsule: Capsule) -> f32 {
-    let axis = capsule.ends.zw - capsule.ends.xy;
-    let middle = 0.5 * (capsule.ends.xy + capsule.ends.zw);
-    let apart = place - middle;
-    let near = apart - edges() * round(apart / edges());
-    let part = saturate(dot(near + 0.5 * axis, axis) / max(dot(axis, axis), 1e-12));
-    return length(near - (part - 0.5) * axis) - mix(capsule.radii.x, capsule.radii.y, part);
-}
-
-fn splash(place: vec2<f32>) -> f32 {
-    var distance = 1.0;
-    for (var index = 0u; index < params.shapes; index++) {
-        let other = outline(place, shapes[index]);
-        let bridge = max(FLOW - abs(distance - other), 0.0);
-        distance = min(distance, other) - bridge * bridge / (4.0 * FLOW);
+fn splash_at(place: vec2<f32>) -> f32 {
+    let bin = splash_bin(place);
+    var sum = 0.0;
+    for (var index = bins[bin]; index < bins[bin + 1u]; index++) {
+        sum += flow(outline(place, shapes[index]));
     }
-    let fray = 0.010 * (tiled_noise(place, 14u, params.seed) - 0.5) + 0.004 * (tiled_noise(place, 45u, params.seed + 1u) - 0.5);
-    let depth = -(distance + fray);
-    let rim = (depth - RIM_DEPTH) / RIM_WIDTH;
-    let pool = 0.45 + 0.2 * tiled_noise(place, 7u, params.seed + 2u);
-    return smoothstep(0.0, EDGE, depth) * mix(pool, 1.0, exp(-rim * rim));
+    return splash(place, joined(sum), params.seed, params.texel);
 }
 
-// Noise in the frame of the stroke, which need not repeat.
-fn stroke_noise(x: f32, y: f32, layer: u32) -> f32 {
-    return noise(vec2(x, y), vec2(65536u), params.seed + layer);
+// The thickest of the repetitions that reach `place`, in cell coordinates from the middle of the nearest.
+fn repeated(place: vec2<f32>) -> f32 {
+    let repeats = vec2<i32>(params.repeats);
+    var thickness = 0.0;
+    for (var j = -repeats.y; j <= repeats.y; j++) {
+        for (var i = -repeats.x; i <= repeats.x; i++) {
+            let apart = (place - vec2(f32(i), f32(j)) * params.edges) / params.scale;
+            let own = vec2(dot(apart, params.turn), dot(apart, vec2(-params.turn.y, params.turn.x)));
+            if dot(own, own) > (REACH + params.texel) * (REACH + params.texel) {
+                continue;
+            }
+            var mark = 0.0;
+            switch params.pattern {
+                case SPLASH: {
+                    mark = splash_at(own);
+                }
+                case FLOWER: {
+                    mark = flower(own, params.petals, params.seed, params.texel);
+                }
+                default: {
+                    mark = brush(own, params.amount, params.seed, params.texel);
+                }
+            }
+            thickness = max(thickness, mark);
+        }
+    }
+    return thickness;
 }
 
-fn brush(place: vec2<f32>) -> f32 {
-    const HALF_LENGTH: f32 = 0.4;
-    let along = vec2(dot(place, params.along), dot(place, vec2(-params.along.y, params.along.x)));
-    // The hand wavers and presses unevenly.
-    let waver = 0.2 * params.brush * (stroke_noise(4.0 * along.x, 0.5, 0u) - 0.5);
-    let press = 0.5 * params.brush * (0.92 + 0.16 * stroke_noise(9.0 * along.x, 0.5, 1u));
-    // -1..1 across the stroke, 0..1 along it.
-    let across = (along.y - waver) / press;
-    let run = 0.5 + 0.5 * along.x / HALF_LENGTH;
-    // Bristles: marks that hardly change along the stroke, fine ones on coarse ones.
-    let mark = mix(stroke_noise(3.0 * run, 6.0 * across, 2u), stroke_noise(5.0 * run, 19.0 * across, 3u), 0.55);
-    // The brush empties: grooves open, and bristle by bristle lets go.
-    let groove = smoothstep(0.1 + 0.3 * run, 0.5 + 0.25 * run, mark);
-    let last = 0.66 + 0.34 * stroke_noise(0.5, 14.0 * across, 4u);
-    let first = 0.05 * across * across + 0.03 * stroke_noise(0.5, 9.0 * across, 5u);
-    let ends = smoothstep(first, first + 0.05, run) * (1.0 - smoothstep(last - 0.16, last, run));
-    let side = 1.0 - smoothstep(0.86, 1.0, abs(across));
-    // Paint is pushed to the sides and lies thick where the brush came down.
-    let ridge = 0.3 * smoothstep(0.6, 0.85, abs(across)) + 0.3 * (1.0 - smoothstep(0.03, 0.16, run));
-    let body = 0.3 * saturate(1.0 - 1.3 * run) + 0.6 * groove + ridge;
-    return ends * side * saturate(body);
+// Painted part of a stripe pattern, `painted` of each period around whole phases, averaged with a parabola over 0.06 periods or more.
+fn stripes(phase: f32, painted: f32, texel_periods: f32) -> f32 {
+    const SOFT: f32 = 0.06;
+    let reach = clamp(texel_periods, SOFT, 1.0);
+    let from_middle = phase - round(phase);
+    var part = 0.0;
+    for (var k = -1; k <= 1; k++) {
+        let x = from_middle - f32(k);
+        part += step_over(x + 0.5 * painted, reach) - step_over(x - 0.5 * painted, reach);
+    }
+    // Beyond one period nothing is left of them.
+    return mix(saturate(part), painted, saturate(texel_periods - 1.0));
+}
+
+// Octaves of noise, each twice as fine and half as strong as the one before, stretched.
+fn clouds(place: vec2<f32>) -> f32 {
+    const OCTAVES: u32 = 6u;
+    var sum = 0.0;
+    var whole = 0.0;
+    for (var octave = 0u; octave < OCTAVES; octave++) {
+        let share = 1.0 / f32(1u << octave);
+        let period = params.lattice << vec2(octave);
+        let spacing = params.edges / (vec2<f32>(period) * params.scale);
+        let value = noise(place * vec2<f32>(period), period, params.seed + octave);
+        sum += share * faded(value, params.texel / min(spacing.x, spacing.y));
+        whole += share;
+    }
+    return smoothstep(0.2, 0.8, sum / whole);
 }
 
 @compute @workgroup_size(SIZE)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let texel = thread_index(group, groups, local, SIZE);
-    if texel >= params.width * params.height {
+    if texel >= params.size.x * params.size.y {
         return;
     }
-    let column = f32(texel % params.width);
-    let row = f32(texel / params.width);
-    let size = vec2(f32(params.width), f32(params.height));
-    let place = vec2(column + 0.5 - 0.5 * size.x, 0.5 * size.y - row - 0.5) / min(size.x, size.y);
-    var thickness = 1.0;
-    if params.pattern == SPLASH {
-        thickness = splash(place);
-    } else if params.pattern == BRUSH {
-        thickness = brush(place);
+    let centre = vec2(f32(texel % params.size.x), f32(params.size.y - 1u - texel / params.size.x)) + 0.5;
+    let in_cell = centre - params.cell * floor(centre / params.cell) - 0.5 * params.cell;
+    let moved = in_cell / min(params.cell.x, params.cell.y) - params.offset;
+    let place = moved - params.edges * round(moved / params.edges);
+    let part = place / params.edges;
+    var thickness = params.amount;
+    switch params.pattern {
+        case SPLASH, FLOWER, BRUSH: {
+            thickness = repeated(place);
+        }
+        case STRIPES: {
+            let periods = params.wave / params.edges;
+            thickness = stripes(dot(part, params.wave), params.amount, length(periods) * params.scale * params.texel);
+        }
+        case SPATTER: {
+            let frame = SpatterFrame(params.lattice, params.edges / params.scale, params.turn);
+            thickness = spatter(part + 0.5, frame, params.amount, params.seed, params.texel);
+        }
+        case NOISE: {
+            thickness = clouds(part + 0.5);
+        }
+        default: {}
     }
     drawn[params.first + texel] = thickness;
 }

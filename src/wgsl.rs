@@ -15,10 +15,14 @@ macro_rules! sources {
 }
 
 sources! {
+    /// Paint taken for a colour.
+    ALPHA_BLEND = "kernels" "alpha_blend";
     /// Neighbours of a texel under a boundary rule.
     BOUNDARY = "kernels/common" "boundary";
     /// Reflectance from radiance.
     BRDF_VALUES = "kernels" "brdf_values";
+    /// A stroke of a brush.
+    BRUSH = "kernels/common" "brush";
     /// Real part of a corner of a complex field.
     CROP_REAL = "kernels" "crop_real";
     /// Samples in shadow masked.
@@ -33,11 +37,13 @@ sources! {
     FILM = "kernels/common" "film";
     /// How far from flat a neighbourhood is.
     FLATNESS = "kernels" "flatness";
+    /// A flower.
+    FLOWER = "kernels/common" "flower";
     /// Spectrum of a height field from that of its slopes.
     FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
     /// Samples into a tile, masked where they are no radiance.
     GATHER = "kernels" "gather";
-    /// One layer of paint over diffuse reflectance.
+    /// Layers of paint over a ground.
     KUBELKA_MUNK = "kernels" "kubelka_munk";
     /// A height field and how it is looked at.
     HEIGHT_FIELD = "kernels/common" "height_field";
@@ -99,10 +105,14 @@ sources! {
     NORMALS = "kernels" "normals";
     /// Eight samples as halves.
     OCTET = "kernels/common" "octet";
-    /// One layer of paint over a height field.
-    PAINT_RELIEF = "kernels" "paint_relief";
     /// Drawn thickness of a procedural pattern.
     PATTERN = "kernels" "pattern";
+    /// Drawn thickness of an image.
+    PATTERN_IMAGE = "kernels" "pattern_image";
+    /// The image reduced.
+    PATTERN_IMAGE_REDUCE = "kernels" "pattern_image_reduce";
+    /// Edges, ridges and grain of patterns.
+    PATTERN_MARKS = "kernels/common" "pattern_marks";
     /// Exact quantile per texel and channel.
     PERCENTILE = "kernels" "percentile";
     /// Normals and albedo from radiance under known lights.
@@ -135,10 +145,14 @@ sources! {
     SLOPES = "kernels" "slopes";
     /// Sums of rows of slopes.
     SLOPE_SUM = "kernels" "slope_sum";
+    /// Drops of all sizes.
+    SPATTER = "kernels/common" "spatter";
     /// The mean specular residual.
     SPECULAR_RESIDUAL = "kernels" "specular_residual";
     /// Specular reflectance per channel.
     SPECULAR_SCALE = "kernels" "specular_scale";
+    /// A splash.
+    SPLASH = "kernels/common" "splash";
     /// The maps and directions that shading reads.
     SURFACE = "kernels/common" "surface";
     /// Radiance of a material that is fully known.

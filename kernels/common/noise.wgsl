@@ -8,11 +8,20 @@ fn hash(value: u32) -> u32 {
     return x ^ (x >> 16u);
 }
 
-// Uniform in [0, 1) at a lattice point; the lattice repeats after `period` points.
-fn lattice(point: vec2<i32>, period: vec2<u32>, seed: u32) -> f32 {
+// Random bits of a lattice point; the lattice repeats after `period` points.
+fn lattice_bits(point: vec2<i32>, period: vec2<u32>, seed: u32) -> u32 {
     let n = vec2<i32>(period);
     let wrapped = vec2<u32>(((point % n) + n) % n);
-    return f32(hash(wrapped.x ^ hash(wrapped.y ^ hash(seed))) >> 8u) * (1.0 / 16777216.0);
+    return hash(wrapped.x ^ hash(wrapped.y ^ hash(seed)));
+}
+
+// Uniform in [0, 1): the upper 24 of 32 random bits.
+fn unit(bits: u32) -> f32 {
+    return f32(bits >> 8u) * (1.0 / 16777216.0);
+}
+
+fn lattice(point: vec2<i32>, period: vec2<u32>, seed: u32) -> f32 {
+    return unit(lattice_bits(point, period, seed));
 }
 
 // Smooth noise in [0, 1): lattice values a unit apart, joined by 3t^2 - 2t^3 (Perlin 1985).

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::{CliError, say};
+use super::{CliError, arguments, output, say, session::SessionArguments};
 use crate::{
     io::{
         self,
@@ -15,13 +15,16 @@ use crate::{
         Paint,
         color::srgb_from_linear,
         kubelka_munk::opaque_reflectance,
-        pigments::{Grade, Pigment, PigmentSet},
+        pigments::{self, Grade, Pigment, PigmentSet},
     },
+    pipeline,
 };
 
-/// List the paints: Kubelka-Munk coefficients, colours, units and sources.
+/// List the paints: Kubelka-Munk coefficients, colours, units and sources; or draw their swatches.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  overpaint paints\n  overpaint paints --library my_paints.toml\n  overpaint paints --json")]
+#[command(
+    after_help = "Examples:\n  overpaint paints\n  overpaint paints --library my_paints.toml --swatches swatches.png\n  overpaint paints --json"
+)]
 pub struct Paints {
     /// A file of own paints to list after those of the library
     #[arg(long, value_name = "FILE.toml")]
@@ -29,11 +32,28 @@ pub struct Paints {
     /// Print JSON, coefficients to full precision
     #[arg(long)]
     json: bool,
+    /// Paint each over black, white and a checker at several thicknesses, and write the sheet: .png (sRGB) or .exr (linear, 32-bit float)
+    #[arg(long, value_name = "IMAGE", conflicts_with = "json", value_parser = arguments::image)]
+    swatches: Option<PathBuf>,
 }
 
 impl Paints {
-    pub fn run(self) -> Result<(), CliError> {
+    /// Whether it computes.
+    pub fn draws(&self) -> bool {
+        self.swatches.is_some()
+    }
+
+    pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         let own = self.library.as_deref().map(|path| io::paints::load(path).map(|paints| (path, paints))).transpose()?;
+        if let Some(sheet) = self.swatches {
+            let own = own.iter().flat_map(|(_, own)| own.own()).map(|own| own.paint.clone());
+            let paints: Vec<_> = pigments::all().map(Paint::from).chain(own).collect();
+            output::check_file(&sheet)?;
+            let session = session.open()?;
+            io::picture::write(&sheet, &pipeline::swatches(&session.gpu, &paints, &session.progress)?)?;
+            session.finish()?;
+            return Ok(());
+        }
         let groups: Vec<_> =
             PigmentSet::ALL.into_iter().map(Group::of_set).chain(own.map(|(path, own)| Group::of_file(path, &own))).collect();
         let text = if self.json {

@@ -245,3 +245,12 @@ pub enum PaintMethod {
     /// The naive way, for comparison: its colour is mixed into the picture by the drawn thickness, flat and without shading.
     AlphaBlend,
 }
+
+impl std::fmt::Display for PaintMethod {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Self::KubelkaMunk => "Kubelka-Munk",
+            Self::AlphaBlend => "alpha blending",
+        })
+    }
+}

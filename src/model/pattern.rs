@@ -1,7 +1,7 @@
-//! Patterns: how thick a layer is drawn, from 0 (bare) to 1, over a plane that repeats.
+//! Patterns: how thick a layer is drawn, from 0 (bare) to 1.
 //!
-//! Patterns live in tile coordinates: the origin at the middle of the plane, x right, y up, the plane's shorter edge of length
-//! 1, so that round shapes stay round and the same pattern is drawn at any resolution.
+//! A pattern has coordinates of its own, in which it is drawn at any resolution: the origin in its middle, x right, y up, and 1 the
+//! shorter edge of the cell that it fills at size 1 ([`Placement`]).
 
 use std::f64::consts::TAU;
 
@@ -61,35 +61,13 @@ pub enum Pattern {
     },
 }
 
-/// Where a pattern is drawn. The plane is divided into equal cells, all drawn alike; a cell's coordinates have their origin in its
-/// middle, x right, y up, its shorter edge 1 long. In each the pattern is scaled by `size`, then turned by `rotation`, then moved by
-/// `offset`; what passes a cell's edge enters at the opposite one, so that the plane repeats without seams.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Placement {
-    /// Columns and rows of cells, 1 to 1000.
-    pub tiling: [u32; 2],
-    /// Right and up, in the cell's coordinates.
-    pub offset: [f64; 2],
-    /// Counter-clockwise, radians.
-    pub rotation: f64,
-    /// Factor on the pattern's lengths, 0.001 to 1000.
-    pub size: f64,
-}
-
-impl Default for Placement {
-    /// One cell, the pattern in its middle at its own size.
-    fn default() -> Self {
-        Self { tiling: [1, 1], offset: [0.0, 0.0], rotation: 0.0, size: 1.0 }
-    }
-}
-
 /// A pattern or placement that cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{setting} of {of} is {found}; it must be {expected}")]
+#[error("the {setting} of {of} is {found}; it must be {expected}")]
 pub struct PatternError {
-    /// "the stripes", "a brush stroke", "the placement" and so on.
+    /// "stripes", "a brush stroke", "a placement" and so on.
     pub of: &'static str,
-    /// Which setting.
+    /// Which setting: "width", "number of petals" and so on.
     pub setting: &'static str,
     /// The value.
     pub found: f64,
@@ -97,7 +75,7 @@ pub struct PatternError {
     pub expected: &'static str,
 }
 
-/// A round-ended capsule whose radius goes over linearly from one end to the other; lengths in tile coordinates.
+/// A round-ended capsule whose radius goes over linearly from one end to the other; lengths in the pattern's coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capsule {
     /// Centre of one end.
@@ -108,7 +86,22 @@ pub struct Capsule {
     pub radii: [f64; 2],
 }
 
+impl Capsule {
+    /// A lower bound of the distance from `place` to its outline: it counts as thick as it is anywhere.
+    #[must_use]
+    pub fn at_least_apart(&self, place: [f64; 2]) -> f64 {
+        let axis = [0, 1].map(|i| self.to[i] - self.from[i]);
+        let from = [0, 1].map(|i| place[i] - self.from[i]);
+        let length2 = axis[0] * axis[0] + axis[1] * axis[1];
+        let part = if length2 > 0.0 { ((from[0] * axis[0] + from[1] * axis[1]) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        (from[0] - part * axis[0]).hypot(from[1] - part * axis[1]) - self.radii[0].max(self.radii[1])
+    }
+}
+
 impl Pattern {
+    /// Points that the coarsest lattice of a spatter has along the shorter edge of its cell.
+    pub const SPATTER_LATTICE: u32 = 6;
+
     /// The code that the kernel knows it by (`kernels/pattern.wgsl`).
     #[must_use]
     pub fn code(self) -> u32 {
@@ -121,6 +114,21 @@ impl Pattern {
             Self::Stripes { .. } => 5,
             Self::Noise { .. } => 6,
             Self::Image { .. } => 7,
+        }
+    }
+
+    /// The name of its kind, as recipes have it.
+    #[must_use]
+    pub fn kind(self) -> &'static str {
+        match self {
+            Self::Uniform { .. } => "uniform",
+            Self::Splash { .. } => "splash",
+            Self::Brush { .. } => "brush",
+            Self::Flower { .. } => "flower",
+            Self::Spatter { .. } => "spatter",
+            Self::Stripes { .. } => "stripes",
+            Self::Noise { .. } => "noise",
+            Self::Image { .. } => "image",
         }
     }
 
@@ -142,20 +150,35 @@ impl Pattern {
     /// # Errors
     /// [`PatternError`] for the first that is not.
     pub fn checked(self) -> Result<Self, PatternError> {
-        if let Self::Brush { width, .. } = self {
-            if !(0.01..=0.5).contains(&width) {
-                return Err(PatternError {
-                    of: "a brush stroke",
-                    setting: "width",
-                    found: width,
-                    expected: "at least 0.01 and at most 0.5 of the plane's shorter edge",
-                });
+        let refused = |of, setting, found, expected| Err(PatternError { of, setting, found, expected });
+        match self {
+            Self::Uniform { drawn } if !(0.0..=1.0).contains(&drawn) => {
+                refused("a uniform pattern", "drawn thickness", drawn, "at least 0 and at most 1")
             }
+            Self::Flower { petals, .. } if !(3..=16).contains(&petals) => {
+                refused("a flower", "number of petals", petals.into(), "at least 3 and at most 16")
+            }
+            Self::Brush { width, .. } if !(0.01..=0.5).contains(&width) => {
+                refused("a brush stroke", "width", width, "at least 0.01 and at most 0.5 of the cell's shorter edge")
+            }
+            Self::Spatter { cover, .. } if !(cover > 0.0 && cover <= 0.9) => {
+                refused("a spatter", "covered part", cover, "above 0 and at most 0.9")
+            }
+            Self::Stripes { count, .. } if !(1..=1000).contains(&count) => {
+                refused("stripes", "number", count.into(), "at least 1 and at most 1000")
+            }
+            Self::Stripes { width, .. } if !(width > 0.0 && width < 1.0) => {
+                refused("stripes", "painted part", width, "above 0 and below 1")
+            }
+            Self::Noise { count, .. } if !(1..=1000).contains(&count) => {
+                refused("noise", "number of clouds", count.into(), "at least 1 and at most 1000")
+            }
+            _ => Ok(self),
         }
-        Ok(self)
     }
 
-    /// The shapes that flow together into the pattern; none unless it is a splash. All lie within 0.45 of the middle.
+    /// The shapes that flow together into the pattern; none unless it is a splash. All lie within 0.45 of the
+    /// middle.
     #[must_use]
     pub fn shapes(self) -> Vec<Capsule> {
         match self {

@@ -7,13 +7,13 @@ use crate::{
 
 /// Drawn thickness of a plane of `width` x `height` texels that repeats.
 #[must_use]
-pub fn pattern(pattern: model::Pattern, _placement: model::Placement, width: u32, height: u32) -> Map<f64> {
+pub fn pattern(pattern: model::Pattern, placement: model::Placement, width: u32, height: u32) -> Map<f64> {
     let plane = Plane { size: [width, height], seed: pattern.seed() };
     let shapes = pattern.shapes();
     Map::from_fn(width as usize, height as usize, |column, row| {
         let place = plane.place(column, row);
         match pattern {
-            model::Pattern::Uniform { drawn } => drawn,
+            model::Pattern::Uniform { drawn } => drawn * placement.size,
             model::Pattern::Splash { .. } => plane.splash(place, &shapes),
             model::Pattern::Brush { width, .. } => plane.brush(place, 0.0, width),
             _ => 1.0,

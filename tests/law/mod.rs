@@ -1,6 +1,7 @@
 //! What must hold without a twin.
 
 crate::suites! {
+    alpha_blend,
     brdf_values,
     color,
     compare,
@@ -23,7 +24,7 @@ crate::suites! {
     microfacet,
     mixture,
     normals,
-    paint_relief,
+    paint,
     path_traced,
     pattern,
     percentile,
