@@ -42,7 +42,7 @@
 //! | `tiling` | columns and rows of cells that the plane is divided into, each 1 to 1000; default `[1, 1]` |
 //! | `offset` | right and up, in units of the cell's shorter edge; default `[0, 0]` |
 //! | `rotation` | counter-clockwise, in degrees; default 0 |
-//! | `size` | factor on the pattern's lengths, 0.001 to 1000; default 1 |
+//! | `size` | factor on the pattern's lengths, 0.001 to 4; default 1 |
 //!
 //! ```toml
 //! library = "my_paints.toml"
