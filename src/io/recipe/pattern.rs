@@ -89,7 +89,20 @@ pub(super) fn pattern(value: Value<'_>, images: &mut Images<'_>) -> Outcome<Patt
         "noise" => Pattern::Noise { seed: seed()?, count: table.whole("count", 8)? },
         _ => Pattern::Uniform { drawn: table.number("drawn", 1.0)? },
     };
-    pattern.checked().map_err(|error| table.fault_at(error.setting, error))
+    pattern.checked().map_err(|error| table.fault_at(key(error.setting), error))
+}
+
+/// The key of what a pattern or placement calls a setting.
+fn key(setting: &'static str) -> &'static str {
+    match setting {
+        "drawn thickness" => "drawn",
+        "number of petals" => "petals",
+        "covered part" => "cover",
+        "number" | "number of clouds" => "count",
+        "painted part" => "width",
+        "number of columns" | "number of rows" => "tiling",
+        setting => setting,
+    }
 }
 
 /// Where a pattern is drawn.
@@ -105,5 +118,6 @@ pub(super) fn placement(value: Value<'_>) -> Outcome<Placement> {
         None => default.offset,
     };
     let rotation = table.number("rotation", 0.0)?.to_radians();
-    Ok(Placement { tiling, offset, rotation, size: table.number("size", default.size)? })
+    let placement = Placement { tiling, offset, rotation, size: table.number("size", default.size)? };
+    placement.checked().map_err(|error| table.fault_at(key(error.setting), error))
 }
