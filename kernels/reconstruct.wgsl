@@ -5,7 +5,7 @@
 #import shade
 
 // [row][column], RGB in reflectance units, w = 1
-@group(0) @binding(7) var<storage, read_write> picture: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> picture: array<vec4<f32>>;
 
 const SIZE: u32 = 64u;
 

@@ -16,7 +16,7 @@ struct Camera {
     _pad2: u32,
 }
 
-@group(0) @binding(7) var<uniform> camera: Camera;
+@group(0) @binding(8) var<uniform> camera: Camera;
 
 // Corners of the plane, two triangles.
 @vertex

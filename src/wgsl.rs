@@ -15,6 +15,8 @@ macro_rules! sources {
 }
 
 sources! {
+    /// Paint taken for a colour.
+    ALPHA_BLEND = "kernels" "alpha_blend";
     /// Neighbours of a texel under a boundary rule.
     BOUNDARY = "kernels/common" "boundary";
     /// Reflectance from radiance.
@@ -37,7 +39,7 @@ sources! {
     FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
     /// Samples into a tile, masked where they are no radiance.
     GATHER = "kernels" "gather";
-    /// One layer of paint over diffuse reflectance.
+    /// Layers of paint over a ground.
     KUBELKA_MUNK = "kernels" "kubelka_munk";
     /// A height field and how it is looked at.
     HEIGHT_FIELD = "kernels/common" "height_field";
@@ -99,8 +101,6 @@ sources! {
     NORMALS = "kernels" "normals";
     /// Eight samples as halves.
     OCTET = "kernels/common" "octet";
-    /// One layer of paint over a height field.
-    PAINT_RELIEF = "kernels" "paint_relief";
     /// Drawn thickness of a stroke of a brush.
     PATTERN_BRUSH = "kernels" "pattern_brush";
     /// Drawn thickness of a flower.

@@ -32,12 +32,18 @@ fn film(scattering: vec3<f32>, absorption: vec3<f32>) -> Film {
     return Film(scattering * t / denominator, (1.0 + absorption * t) / denominator, 2.0 * x / ((1.0 + x * x) * denominator));
 }
 
-// Reflectance of a film on an opaque substrate: R + T^2 rho/(1 - R rho) (3.9), with 1 - R rho = (1 - R) + R(1 - rho), a sum
-// of positive terms up to rho = 1 itself. What a measured substrate has above 1 is seen through the film once.
+// 1 - R rho between a film and the reflectance `below` it, as (1 - R) + R(1 - rho): a sum of positive terms up to rho = 1 itself.
+fn lost_between(coat: Film, below: vec3<f32>) -> vec3<f32> {
+    return coat.complement + coat.reflectance * (1.0 - min(below, vec3(1.0)));
+}
+
+// Reflectance of a film on a substrate of at most 1: R + T^2 rho/(1 - R rho) (3.9).
 fn over_substrate(coat: Film, substrate: vec3<f32>) -> vec3<f32> {
-    let white = min(substrate, vec3(1.0));
-    let between = coat.complement + coat.reflectance * (1.0 - white);
     // T/(1 - R rho) is at most 1; T^2 alone could underflow.
-    let repeated = coat.transmittance * (coat.transmittance / between) * white;
-    return coat.reflectance + repeated + coat.transmittance * coat.transmittance * (substrate - white);
+    return coat.reflectance + coat.transmittance * through(coat, substrate) * substrate;
+}
+
+// Factor by which a film changes the transmittance of a stack that reflects `below` from above: T/(1 - R rho) (3.8).
+fn through(coat: Film, below: vec3<f32>) -> vec3<f32> {
+    return coat.transmittance / lost_between(coat, below);
 }

@@ -15,17 +15,13 @@ struct Scene {
     highest: f32,
     // tangent of the light's angular width
     penumbra: f32,
-    // the coat's Fresnel reflectance at normal incidence and its GGX alpha
-    f0: f32,
-    roughness: f32,
     // the frame that the unpainted reflectance is in (model::Frame), and the number of its lobes
     frame: u32,
     lobes: u32,
     // share of the base plane's light that reaches every point by way of others (data::Svbrdf)
     ambient: f32,
-    _pad0: u32,
-    _pad1: u32,
-    _pad2: u32,
+    // 1 if paint is a flat colour (model::PaintMethod)
+    blended: u32,
 }
 
 @group(0) @binding(0) var<uniform> scene: Scene;

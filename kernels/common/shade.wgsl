@@ -25,14 +25,18 @@ fn unpainted_radiance(texel: u32, normal: vec3<f32>, lit: f32) -> vec3<f32> {
 // of 1 - F over the hemisphere, so that what is not reflected is what the diffuse part gets (Kelemen, Szirmay-Kalos 2001).
 // Schlick's F has the cosine-weighted mean f0 + (1 - f0)/21. A normal that turns from the view further than the base plane does
 // is taken at the plane's angle: normals on a rim average in the side that is hidden, and would draw it dark.
-fn painted_radiance(texel: u32) -> vec3<f32> {
+// `visible` is the share of the light that the place sees; what comes by way of others is as on the bare material, and enters
+// from everywhere.
+fn painted_radiance(texel: u32, visible: f32) -> vec3<f32> {
     let view = scene.view.xyz;
     let light = scene.light.xyz;
     let normal = normals[texel].xyz;
+    let f0 = coats[texel].x;
     let cos_light = max(dot(normal, light), 0.0);
-    let through = (1.0 - schlick(scene.f0, cos_light)) * (1.0 - schlick(scene.f0, max(dot(normal, view), view.z)));
-    let entering = through / ((1.0 - scene.f0) * (20.0 / 21.0));
-    return entering * painted[texel].rgb * cos_light + ggx_specular(normal, view, light, scene.roughness, scene.f0);
+    let entering = visible * cos_light * (1.0 - schlick(f0, cos_light)) / ((1.0 - f0) * (20.0 / 21.0));
+    let lit = mix(entering, light.z, scene.ambient);
+    let leaving = 1.0 - schlick(f0, max(dot(normal, view), view.z));
+    return leaving * lit * painted[texel].rgb + visible * ggx_specular(normal, view, light, coats[texel].y, f0);
 }
 
 fn weights_of(cell: Cell) -> vec4<f32> {
@@ -46,7 +50,7 @@ fn weights_of(cell: Cell) -> vec4<f32> {
 // is that of the base plane's place, as a measurement has it: seen obliquely, the same place shows another point of the
 // surface, whose normal is the frame's.
 fn radiance_at(base: vec2<f32>) -> vec3<f32> {
-    if scene.view.z < MIN_COSINE {
+    if scene.view.z < MIN_COSINE || scene.light.z < MIN_COSINE {
         return vec3(0.0);
     }
     let hit = first_hit(base, scene.view.xyz);
@@ -60,13 +64,18 @@ fn radiance_at(base: vec2<f32>) -> vec3<f32> {
         let coverage = painted[texel].w * weights[corner];
         bare += weights[corner] - coverage;
         if coverage > 0.0 {
-            radiance += visible * coverage * painted_radiance(texel);
+            if scene.blended == 1u {
+                // A colour in the picture, which knows of no surface.
+                radiance += coverage * painted[texel].rgb * scene.light.z;
+            } else {
+                radiance += coverage * painted_radiance(texel, visible);
+            }
         }
         if scene.frame == FRAME_PLANE && weights[corner] > coverage {
             radiance += (weights[corner] - coverage) * unpainted_radiance(texel, vec3(0.0, 0.0, 1.0), visible * scene.light.z);
         }
     }
-    if scene.frame == FRAME_PLANE || bare == 0.0 || scene.light.z < MIN_COSINE {
+    if scene.frame == FRAME_PLANE || bare == 0.0 {
         return radiance;
     }
     let place = select(hit.place, base, scene.frame == FRAME_TEXEL);

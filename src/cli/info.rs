@@ -12,6 +12,7 @@ use crate::{
         self,
         conventions::{self, Convention},
     },
+    model::Layer,
 };
 
 /// Tell what a source or a material holds.
@@ -78,6 +79,7 @@ enum Content {
         choice: Choice,
         lobes: usize,
         lpca: Option<Compressed>,
+        paint: Option<Vec<Layer>>,
         provenance: Box<Provenance>,
         #[serde(serialize_with = "as_map")]
         conventions: &'static [Convention],
@@ -168,6 +170,16 @@ fn as_map<S: Serializer>(conventions: &[Convention], serializer: S) -> Result<S:
     serializer.collect_map(conventions.iter().copied())
 }
 
+/// A layer of paint.
+fn in_a_line(layer: &Layer) -> String {
+    let Layer { paint, pattern, thickness, relief, refractive_index, roughness, .. } = layer;
+    format!(
+        "{}, {}, thickness {thickness}, relief {relief}, refractive index {refractive_index}, roughness {roughness}",
+        paint.name,
+        pattern.kind()
+    )
+}
+
 /// How a texel's fit ended, in words.
 fn fit_end(status: FitStatus) -> &'static str {
     match status {
@@ -201,6 +213,7 @@ impl Content {
             choice: material.choice.clone(),
             lobes: material.svbrdf.lobes.len(),
             lpca: material.lpca.as_ref().map(|lpca| Compressed::of(lpca, lpca_bytes)),
+            paint: material.painted.as_ref().map(|painted| painted.layers.clone()),
             provenance: Box::new(material.provenance.clone()),
             conventions: conventions::MATERIAL,
         }
@@ -215,7 +228,7 @@ impl Content {
                 lines.measured(measured);
                 conventions
             }
-            Self::Material { width, height, lowest, highest, fit, masked, choice, lobes, lpca, provenance, conventions } => {
+            Self::Material { width, height, lowest, highest, fit, masked, choice, lobes, lpca, paint, provenance, conventions } => {
                 lines.add("material of", &provenance.source);
                 lines.add("texels", format!("{width} x {height}"));
                 lines.add("height", format!("{lowest:.3} to {highest:.3} texel widths"));
@@ -224,6 +237,10 @@ impl Content {
                 lines.add("surface", choice);
                 lines.add("lobes", lobes);
                 lines.compressed(lpca.as_ref());
+                match paint.as_deref() {
+                    None | Some([]) => lines.add("paint", "none"),
+                    Some(layers) => lines.list("paint", layers.iter().map(in_a_line)),
+                }
                 lines.add("masked", format!("{masked} samples that are no radiance"));
                 lines.measured(&Measured::of_provenance(provenance));
                 lines.add("adapter", &provenance.adapter);

@@ -9,6 +9,7 @@ mod bar;
 mod compare;
 mod demo;
 mod error;
+mod figures;
 mod fit;
 mod import;
 mod info;
@@ -16,6 +17,9 @@ mod lpca;
 mod memory;
 mod model;
 mod output;
+mod paint;
+mod painting;
+mod paints;
 mod reading;
 mod reconstruct;
 mod render;
@@ -56,9 +60,12 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 enum Command {
     Compare(compare::Compare),
     Demo(demo::Demo),
+    Figures(figures::Figures),
     Fit(fit::Fit),
     Import(import::Import),
     Info(info::Info),
+    Paint(paint::Paint),
+    Paints(paints::Paints),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
     Synth(synth::Synth),
@@ -74,14 +81,18 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
     match command {
         Command::Compare(compare) => compare.run(&session),
         Command::Demo(demo) => demo.run(&session),
+        Command::Figures(figures) => figures.run(&session),
         Command::Fit(fit) => fit.run(&session),
         Command::Import(import) => import.run(&session),
+        Command::Paint(paint) => paint.run(&session),
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
         Command::Synth(synth) => synth.run(&session),
-        Command::Info(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
+        Command::Paints(paints) if paints.draws() => paints.run(&session),
+        Command::Info(_) | Command::Paints(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
             .error(clap::error::ErrorKind::ArgumentConflict, "--adapter and --timings are for commands that compute; leave them out here")
             .into()),
+        Command::Paints(paints) => paints.run(&session),
         Command::Info(info) => info.run(),
         Command::Adapters(adapters) => adapters.run(),
     }

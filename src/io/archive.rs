@@ -121,7 +121,7 @@ impl Archive {
             Store::Folder => {
                 let file = File::open(self.path.join(&self.names[index])).map_err(unreadable)?;
                 let declared = file.metadata().map_err(unreadable)?.len();
-                self.bounded(index, declared, file).map_err(unreadable)?
+                bounded(&self.label(index), declared, file).map_err(unreadable)?
             }
             Store::Zip(metadata) => {
                 let file = File::open(&self.path).map_err(|source| IoError::Read { file: self.path.display().to_string(), source })?;
@@ -136,24 +136,24 @@ impl Archive {
         let entry = metadata.entry(index).map_err(|error| damaged(error.to_string()))?;
         let declared = entry.size();
         let file = entry.with_reader(&mut reader, ZipReadOptions::new()).map_err(|error| damaged(error.to_string()))?;
-        let bytes = self.bounded(index, declared, file).map_err(|error| damaged(error.to_string()))??;
+        let bytes = bounded(&self.label(index), declared, file).map_err(|error| damaged(error.to_string()))??;
         if bytes.len() as u64 == declared {
             Ok(bytes)
         } else {
             Err(damaged(format!("{declared} bytes are declared, {} are there", bytes.len())))
         }
     }
+}
 
-    /// Reads to the end, but never more than [`MAX_BYTES`], whatever is declared.
-    fn bounded(&self, index: usize, declared: u64, reader: impl Read) -> std::io::Result<Result<Vec<u8>, IoError>> {
-        let too_many = |found| Ok(Err(IoError::TooManyBytes { file: self.label(index), found, limit: MAX_BYTES }));
-        if declared > MAX_BYTES {
-            return too_many(declared);
-        }
-        let mut bytes = Vec::new();
-        reader.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
-        if bytes.len() as u64 > MAX_BYTES { too_many(bytes.len() as u64) } else { Ok(Ok(bytes)) }
+/// Reads the file called `label` to its end, but never more than [`MAX_BYTES`], whatever is declared.
+pub(super) fn bounded(label: &str, declared: u64, reader: impl Read) -> std::io::Result<Result<Vec<u8>, IoError>> {
+    let too_many = |found| Ok(Err(IoError::TooManyBytes { file: label.to_owned(), found, limit: MAX_BYTES }));
+    if declared > MAX_BYTES {
+        return too_many(declared);
     }
+    let mut bytes = Vec::new();
+    reader.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_BYTES { too_many(bytes.len() as u64) } else { Ok(Ok(bytes)) }
 }
 
 /// The central directory of a .zip archive: names and places of its entries.

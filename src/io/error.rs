@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{BtfFileError, SelectionFault, lights::LightFault};
+use super::{BtfFileError, RecipeError, SelectionFault, lights::LightFault};
 use crate::data::{BtfError, Direction, ShapeError, Transfer};
 
 /// Everything that can go wrong with files. A `file` is a path, or an archive's path and the name inside it.
@@ -240,6 +240,27 @@ pub enum IoError {
     /// A `.btf` container.
     #[error(transparent)]
     BtfFile(#[from] BtfFileError),
+    /// A recipe or a library of paints.
+    #[error(transparent)]
+    Recipe(#[from] RecipeError),
+    /// A recipe or a library of paints with more bytes than one has.
+    #[error("{path} holds more than {limit} bytes, the most that are read of a recipe or a library of paints; check the name", path = path.display())]
+    TooLongText {
+        /// The file.
+        path: PathBuf,
+        /// Bytes read at most.
+        limit: u64,
+    },
+    /// An image that is to be drawn in paint, with a pixel that says nothing.
+    #[error("{file}: the pixel in column {column}, row {row} is not a number, and no thickness can be drawn from it; correct the image")]
+    NoThickness {
+        /// The image.
+        file: String,
+        /// Its column.
+        column: usize,
+        /// Its row.
+        row: usize,
+    },
 
     /// A folder that holds no material.
     #[error("{path} is no overpaint material: {found}; name a folder written by `overpaint fit`", path = path.display())]

@@ -55,6 +55,27 @@ impl Film {
 /// The whitest substrate that the series between film and substrate is summed for: the last f64 below 1.
 const WHITEST: f64 = 1.0 - 0.5 * f64::EPSILON;
 
+/// s = S·d and k = K·d of the film that reflects `over_white` on a white ground and `over_black` on a black one (Curtis et al. 1997,
+/// section 5.1); `None` unless 0 < R_b < R_w < 1, in linear light.
+///
+/// Their form is a = (R_w + (R_b − R_w + 1)/R_b)/2, b = √(a² − 1), s = acoth((b² − (a − R_w)(a − 1))/(b(1 − R_w)))/b, k = s(a − 1). It
+/// loses digits in a − 1 where a is near 1, in acoth where its argument is, and overflows with 1/R_b. With u = (a − 1)R_b and
+/// v = b·R_b, in which it is equal to what stands here, none of that is left: u = (1 − R_w)(1 − R_b)/2, v = √(u(u + 2R_b)),
+/// z = 2v/((1 − R_b)(1 + R_w)), s = atanh(z)·R_b/v, k = atanh(z)·u/v.
+#[must_use]
+pub fn film_of(over_white: f64, over_black: f64) -> Option<(f64, f64)> {
+    if !(0.0 < over_black && over_black < over_white && over_white < 1.0) {
+        return None;
+    }
+    let u = 0.5 * (1.0 - over_white) * (1.0 - over_black);
+    let v = u.sqrt() * (u + 2.0 * over_black).sqrt();
+    let z = 2.0 * v / ((1.0 - over_black) * (1.0 + over_white));
+    // 1 - z² without the difference of two numbers near 1.
+    let rest = 4.0 * (over_white - over_black) / ((1.0 - over_black) * (1.0 + over_white).powi(2));
+    let atanh = if z < 0.5 { z.atanh() } else { z.ln_1p() - 0.5 * rest.ln() };
+    Some((atanh * over_black / v, atanh * u / v))
+}
+
 /// Reflectance of an opaque coat: R∞ = 1/(1 + Q + √(Q(Q + 2))), Q = K/S; 0 without scattering.
 #[must_use]
 pub fn opaque_reflectance(scattering: f64, absorption: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! Paints and layers: what is laid on a material.
 
-use super::{Coat, Film, Pattern, Placement, pigments::Pigment};
+use super::{Coat, Film, Pattern, Placement, kubelka_munk::film_of, pigments::Pigment};
 
 /// A paint by its Kubelka-Munk coefficients per unit of thickness, in R, G, B.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -16,6 +16,71 @@ pub struct Paint {
 impl From<&Pigment> for Paint {
     fn from(pigment: &Pigment) -> Self {
         Self { name: pigment.full_name(), k: pigment.k, s: pigment.s }
+    }
+}
+
+impl Paint {
+    /// The least difference of a film over white and over black that two colours of 8 bits tell.
+    pub const LEAST_DIFFERENCE: f64 = 1.0 / 255.0;
+
+    /// The paint of which a film of `thickness` reflects `over_white` on a white ground and `over_black` on a black one, in R, G, B of
+    /// linear light (Curtis et al. 1997, section 5.1).
+    ///
+    /// A film over white and over black that differ by less than `least_difference`, such as [`Self::LEAST_DIFFERENCE`], is refused:
+    /// the nearer they are, the more of S lies in their last digits. 0 takes both as exact.
+    ///
+    /// # Errors
+    /// [`PaintError`] unless 0 < R_b < R_w < 1 in each channel, for the first that differs too little, and as [`Self::checked`].
+    pub fn from_reflectances(
+        name: &str, over_white: [f64; 3], over_black: [f64; 3], thickness: f64, least_difference: f64,
+    ) -> Result<Self, PaintError> {
+        let mut paint = Self { name: name.to_owned(), k: [0.0; 3], s: [0.0; 3] };
+        for (index, channel) in CHANNELS.into_iter().enumerate() {
+            let (over_white, over_black) = (over_white[index], over_black[index]);
+            let Some((s, k)) = film_of(over_white, over_black) else {
+                return Err(PaintError::Reflectances { paint: paint.name, channel, over_white, over_black });
+            };
+            if over_white - over_black < least_difference {
+                return Err(PaintError::Opaque { paint: paint.name, channel, over_white, over_black, least: least_difference });
+            }
+            (paint.s[index], paint.k[index]) = (s / thickness, k / thickness);
+        }
+        paint.checked()
+    }
+
+    /// `parts` of paints stirred together: K = Σcᵢ·Kᵢ and S = Σcᵢ·Sᵢ, amounts cᵢ above 0, divided by their sum (Duncan 1940).
+    ///
+    /// All must be in one unit of thickness, the mixture is in the same.
+    ///
+    /// # Errors
+    /// As [`Self::checked`].
+    pub fn mixture(name: &str, parts: &[(f64, Self)]) -> Result<Self, PaintError> {
+        let whole: f64 = parts.iter().map(|(amount, _)| amount).sum();
+        let mean = |of: fn(&Self) -> &[f64; 3]| {
+            std::array::from_fn(|channel| parts.iter().map(|(amount, paint)| amount * of(paint)[channel]).sum::<f64>() / whole)
+        };
+        Self { name: name.to_owned(), k: mean(|paint| &paint.k), s: mean(|paint| &paint.s) }.checked()
+    }
+
+    /// The paint itself, if K and S are at least 0 and at most 1e6.
+    ///
+    /// # Errors
+    /// [`PaintError::Coefficient`] for the first that is not.
+    pub fn checked(self) -> Result<Self, PaintError> {
+        for (coefficient, values) in [("K", self.k), ("S", self.s)] {
+            for (channel, found) in CHANNELS.into_iter().zip(values) {
+                if !(0.0..=MAX_COEFFICIENT).contains(&found) {
+                    return Err(PaintError::Coefficient { paint: self.name, coefficient, channel, found });
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// The film of `thickness` in R, G, B.
+    #[must_use]
+    pub fn films(&self, thickness: f64) -> [Film; 3] {
+        std::array::from_fn(|channel| Film::new(self.s[channel] * thickness, self.k[channel] * thickness))
     }
 }
 
@@ -54,8 +119,42 @@ pub enum PaintError {
         /// The value.
         found: f64,
     },
+    /// Reflectances that no film has.
+    #[error(
+        "paint \"{paint}\" in {channel} reflects {white} over white and {black} over black; in linear light 0 < over black < over white < 1 \
+         must hold in each channel: no film reflects nothing or everything, nor more over black than over white; measure again, or give K and S",
+        white = short(*over_white), black = short(*over_black)
+    )]
+    Reflectances {
+        /// The paint's name.
+        paint: String,
+        /// "red", "green" or "blue".
+        channel: &'static str,
+        /// R_w.
+        over_white: f64,
+        /// R_b.
+        over_black: f64,
+    },
+    /// Reflectances of a film that is all but opaque, which do not tell S.
+    #[error(
+        "paint \"{paint}\" in {channel} reflects {white} over white and {black} over black, a difference of less than {least:.4}: the film \
+         is all but opaque and does not tell its scattering; measure a thinner one",
+        white = short(*over_white), black = short(*over_black)
+    )]
+    Opaque {
+        /// The paint's name.
+        paint: String,
+        /// "red", "green" or "blue".
+        channel: &'static str,
+        /// R_w.
+        over_white: f64,
+        /// R_b.
+        over_black: f64,
+        /// The difference asked for.
+        least: f64,
+    },
     /// A setting of a layer lies outside its range.
-    #[error("{setting} of the layer of \"{paint}\" is {found}; it must be at least {low} and at most {high:e}")]
+    #[error("{setting} of the layer of \"{paint}\" is {found}; it must be at least {low} and at most {most}", most = short(*high))]
     Setting {
         /// The paint's name.
         paint: String,
@@ -69,6 +168,13 @@ pub enum PaintError {
         high: f64,
     },
 }
+
+/// A number for a message: to six decimals, large ones by their exponent.
+fn short(value: f64) -> String {
+    if value.abs() >= 1e5 { format!("{value:e}") } else { ((value * 1e6).round() / 1e6).to_string() }
+}
+
+const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// Largest K, S, thickness and relief: far beyond opaque, and K·d stays within f32.
 const MAX_COEFFICIENT: f64 = 1e6;
@@ -101,14 +207,8 @@ impl Layer {
     ///
     /// # Errors
     /// [`PaintError`] for the first that is not.
-    pub fn checked(self) -> Result<Self, PaintError> {
-        for (coefficient, values) in [("K", self.paint.k), ("S", self.paint.s)] {
-            for (channel, found) in ["red", "green", "blue"].into_iter().zip(values) {
-                if !(0.0..=MAX_COEFFICIENT).contains(&found) {
-                    return Err(PaintError::Coefficient { paint: self.paint.name, coefficient, channel, found });
-                }
-            }
-        }
+    pub fn checked(mut self) -> Result<Self, PaintError> {
+        self.paint = self.paint.checked()?;
         let settings = [
             ("thickness", self.thickness, 0.0, MAX_COEFFICIENT),
             ("relief", self.relief, 0.0, MAX_COEFFICIENT),
@@ -125,8 +225,7 @@ impl Layer {
     /// The film in R, G, B where the drawn thickness is `drawn`.
     #[must_use]
     pub fn films(&self, drawn: f64) -> [Film; 3] {
-        let d = self.thickness * drawn;
-        std::array::from_fn(|channel| Film::new(self.paint.s[channel] * d, self.paint.k[channel] * d))
+        self.paint.films(self.thickness * drawn)
     }
 
     /// Texel widths by which the surface rises where the drawn thickness is `drawn`.
@@ -145,4 +244,13 @@ pub enum PaintMethod {
     KubelkaMunk,
     /// The naive way, for comparison: its colour is mixed into the picture by the drawn thickness, flat and without shading.
     AlphaBlend,
+}
+
+impl std::fmt::Display for PaintMethod {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(match self {
+            Self::KubelkaMunk => "Kubelka-Munk",
+            Self::AlphaBlend => "alpha blending",
+        })
+    }
 }

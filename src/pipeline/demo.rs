@@ -3,20 +3,25 @@
 use std::path::Path;
 
 use super::{
-    PipelineError, Progress, Studio, fit,
+    Painter, PipelineError, Progress, Studio, fit,
     report::{Cell, Figure, Report, Row},
 };
 use crate::{
     data::{Btf, Direction, Map, Material, PlaneView, Recipe},
     gpu::Gpu,
     io::{self, Source},
-    model::{Appearance, FitSettings, Layer, LpcaSettings, Paint, Pattern, Relief, TexelSamples, color::linear_from_srgb, pigments},
+    model::{
+        Appearance, FitSettings, Layer, LpcaSettings, Paint, PaintMethod, Pattern, Relief, TexelSamples, color::linear_from_srgb, pigments,
+    },
 };
 
 /// Name of the report in the demo's folder.
 pub const REPORT: &str = "report.html";
 /// Name of the material in the demo's folder.
 const MATERIAL: &str = "weave64.zarr";
+
+/// Name of the sample inside the program.
+pub const SAMPLE_NAME: &str = "weave64";
 
 /// A path-traced woven cloth: 64 x 64 texels under 51 views and 51 lights.
 const SAMPLE: &[u8] = include_bytes!("../sample/weave64_51x51.zip");
@@ -48,9 +53,8 @@ const PAINTED_SIZE: [u32; 2] = [512, 424];
 pub fn demo(gpu: &Gpu, folder: &Path, progress: &Progress) -> Result<(), PipelineError> {
     let target = folder.join(MATERIAL);
     io::material::check_target(&target)?;
-    let source = io::open_zip_bytes("weave64", SAMPLE)?;
-    let settings = FitSettings { lpca: Some(LpcaSettings::default()), ..FitSettings::default() };
-    let material = fit(gpu, source.as_ref(), &settings, progress)?;
+    let source = sample()?;
+    let material = fit(gpu, source.as_ref(), &sample_settings(), progress)?;
     io::material::save(&target, &material)?;
 
     let job = Job { source: source.as_ref(), material: &material, studio: Studio::new(gpu)?, progress };
@@ -64,6 +68,22 @@ pub fn demo(gpu: &Gpu, folder: &Path, progress: &Progress) -> Result<(), Pipelin
     }
     report.finish(REPORT, &progress.report())?;
     Ok(())
+}
+
+fn sample() -> Result<Box<dyn Source>, PipelineError> {
+    Ok(io::open_zip_bytes(SAMPLE_NAME, SAMPLE)?)
+}
+
+fn sample_settings() -> FitSettings {
+    FitSettings { lpca: Some(LpcaSettings::default()), ..FitSettings::default() }
+}
+
+/// The material of the sample inside the program.
+///
+/// # Errors
+/// [`PipelineError`] if a stage fails.
+pub fn fit_sample(gpu: &Gpu, progress: &Progress) -> Result<Material, PipelineError> {
+    fit(gpu, sample()?.as_ref(), &sample_settings(), progress)
 }
 
 fn introduction(btf: &Btf, gpu: &Gpu) -> String {
@@ -102,8 +122,8 @@ impl Job<'_> {
             },
         ];
         Ok(Figure {
-            stem: "recovered",
-            title: "What was measured and what was recovered",
+            stem: "recovered".to_owned(),
+            title: "What was measured and what was recovered".to_owned(),
             caption: format!(
                 "Left, the photograph from the view {} under the light {}. Middle, normals, (x, y, z) from −1 … 1 as red, green and blue. \
                  Right, height, from {lowest:.2} (black) to {highest:.2} texel widths (white).",
@@ -126,7 +146,7 @@ impl Job<'_> {
     }
 
     /// Original, positive and negative difference and reconstruction, lit from the right at several elevations.
-    fn comparison(&self, stem: &'static str, title: &'static str, view: (f64, f64)) -> Result<Figure, PipelineError> {
+    fn comparison(&self, stem: &str, title: &str, view: (f64, f64)) -> Result<Figure, PipelineError> {
         let btf = self.source.btf();
         let view = nearest(btf.views(), view);
         let mut rows = ["original", "positive difference", "negative difference", "reconstruction", "local PCA"]
@@ -151,8 +171,8 @@ impl Job<'_> {
             columns.push(format!("light {}", btf.lights()[light]));
         }
         Ok(Figure {
-            stem,
-            title,
+            stem: stem.to_owned(),
+            title: title.to_owned(),
             caption: format!(
                 "View {}; the light stands at the right. Positive difference is what the original has more than the reconstruction, negative \
                  difference what it has less, in linear light and not amplified. The relative RMS is that of the difference over that of the \
@@ -169,9 +189,15 @@ impl Job<'_> {
     fn painted(&self) -> Result<Figure, PipelineError> {
         let [view, light] = [PAINTED_VIEW, PAINTED_LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
         let shot = PlaneView::new(view, light, PAINTED_SIZE);
+        let painter = Painter::new(self.studio.gpu())?;
         let cloth = self.material.repeated(PIECES, PIECES);
         let render = |recipe: Option<&Recipe>| {
-            let surface = self.studio.surface(&cloth, recipe, self.progress)?;
+            let surface = match recipe {
+                None => self.studio.surface(&cloth, self.progress)?,
+                Some(recipe) => {
+                    self.studio.surface(&painter.paint(&cloth, recipe, PaintMethod::KubelkaMunk, self.progress)?, self.progress)?
+                }
+            };
             self.studio.render(&surface, &shot, Relief::default(), self.progress)
         };
         let bare = render(None)?;
@@ -188,8 +214,8 @@ impl Job<'_> {
             rows.push(Row { label: name.to_owned(), cells });
         }
         Ok(Figure {
-            stem: "painted",
-            title: "Bare and painted",
+            stem: "painted".to_owned(),
+            title: "Bare and painted".to_owned(),
             caption: format!(
                 "View {view}, light {light}; {PIECES} by {PIECES} pieces of the sample. The paint is laid on by Kubelka and Munk's theory: a glaze takes \
                  light from the weave, which still shows, and a thick coat hides it. It raises the surface and has a highlight of its own."

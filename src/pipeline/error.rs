@@ -4,7 +4,7 @@ use crate::{
     data::ShapeError,
     gpu::GpuError,
     io::IoError,
-    model::{PaintError, PatternError, SettingsError, SynthError},
+    model::{PaintError, PaintMethod, PatternError, SettingsError, SynthError, pigments::PigmentError},
     stage::StageError,
 };
 
@@ -21,6 +21,9 @@ pub enum PipelineError {
     /// A layer of paint that no stage can work with.
     #[error(transparent)]
     Paint(#[from] PaintError),
+    /// A name that is no paint's.
+    #[error(transparent)]
+    Pigment(#[from] PigmentError),
     /// A pattern that no stage can work with.
     #[error(transparent)]
     Pattern(#[from] PatternError),
@@ -67,6 +70,38 @@ pub enum PipelineError {
     NoLpca {
         /// Name of the source.
         source_name: String,
+    },
+    /// A pattern of an image that there is not.
+    #[error("a layer draws image {image}, but the recipe has {images}; add it to the recipe's images, or name another")]
+    NoSuchImage {
+        /// Its index.
+        image: usize,
+        /// Images there are.
+        images: usize,
+    },
+    /// A plane that no adapter paints.
+    #[error(
+        "{} x {} pieces of {} x {} texels cannot be painted: a plane has at least 1 and at most {limit} texels; repeat the material less often",
+        repeat[0], repeat[1], size[0], size[1]
+    )]
+    PlaneTooLarge {
+        /// Columns and rows of the material.
+        size: [usize; 2],
+        /// Pieces to the right and downwards.
+        repeat: [usize; 2],
+        /// Most texels of a plane.
+        limit: usize,
+    },
+    /// A painted material where a bare one is needed.
+    #[error("the material is painted, and its source is not; compare the bare material")]
+    Painted,
+    /// Paint over paint of another kind.
+    #[error("the material is already painted by {before}, which cannot go on by {asked}; paint the bare material")]
+    MethodsDiffer {
+        /// What is there.
+        before: PaintMethod,
+        /// What was asked for.
+        asked: PaintMethod,
     },
     /// A texel outside the plane.
     #[error("there is no texel {column},{row}: the plane has columns 0 to {} and rows 0 to {}; name one of them", width - 1, height - 1)]

@@ -4,28 +4,34 @@ mod compare;
 mod demo;
 mod error;
 mod export;
+mod figures;
 mod fit;
 mod geometry;
 mod import;
 mod lpca;
 mod memory;
+mod paint;
 mod progress;
 mod reflectance;
 mod report;
 mod studio;
+mod swatches;
 mod synth;
 mod tiles;
 
 pub use compare::{
     AtElevation, AtElevations, CompareSettings, Comparison, PairQuality, Quality, TexelError, check_comparison, compare, compare_into,
 };
-pub use demo::{REPORT, demo};
+pub use demo::{REPORT, SAMPLE_NAME, demo, fit_sample};
 pub use error::PipelineError;
 pub use export::export_tree;
+pub use figures::{FIGURES, figures};
 pub use fit::{check_fit, fit, fit_job, fit_within};
 pub use import::{Imported, import};
 pub use lpca::lpca;
 pub use memory::Memory;
+pub use paint::Painter;
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
 pub use studio::{Studio, Subject};
+pub use swatches::swatches;
 pub use synth::Synthetic;

@@ -30,9 +30,9 @@ pub struct Row {
 #[derive(Debug)]
 pub struct Figure {
     /// Stem of the figure's files.
-    pub stem: &'static str,
+    pub stem: String,
     /// What stands above it.
-    pub title: &'static str,
+    pub title: String,
     /// What it shows.
     pub caption: String,
     /// Headings of the columns.

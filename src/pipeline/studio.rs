@@ -1,10 +1,10 @@
 //! Pictures of a material, bare or painted.
 
-use super::{PipelineError, Progress, tiles::run};
+use super::{PipelineError, Progress, paint::upload_paint, tiles::run};
 use crate::{
-    data::{Direction, Map, Material, PlaneView, Recipe},
+    data::{Direction, Map, Material, PlaneView},
     gpu::{Buffer, Gpu, GpuError, Recorder},
-    model::{Appearance, Coat, Relief, TexelSamples},
+    model::{Appearance, Relief, TexelSamples},
     render::Plane,
     stage::{self, CompressedBtf, HeightField, Surface},
 };
@@ -43,9 +43,6 @@ impl Subject {
 #[derive(Debug)]
 pub struct Studio<'g> {
     gpu: &'g Gpu,
-    pattern: stage::Pattern,
-    kubelka_munk: stage::KubelkaMunk,
-    paint_relief: stage::PaintRelief,
     normals: stage::Normals,
     reconstruct: stage::Reconstruct,
     reconstruct_lpca: stage::ReconstructLpca,
@@ -60,9 +57,6 @@ impl<'g> Studio<'g> {
     pub fn new(gpu: &'g Gpu) -> Result<Self, PipelineError> {
         Ok(Self {
             gpu,
-            pattern: stage::Pattern::new(gpu)?,
-            kubelka_munk: stage::KubelkaMunk::new(gpu)?,
-            paint_relief: stage::PaintRelief::new(gpu)?,
             normals: stage::Normals::new(gpu)?,
             reconstruct: stage::Reconstruct::new(gpu)?,
             reconstruct_lpca: stage::ReconstructLpca::new(gpu)?,
@@ -70,38 +64,20 @@ impl<'g> Studio<'g> {
         })
     }
 
-    /// The maps that pictures are made from, painted if asked; a layer of thickness 0 leaves the material bare.
+    /// The maps that pictures are made from, its paint included.
     ///
     /// # Errors
-    /// [`PipelineError::Gpu`] if a map does not fit the adapter, [`PipelineError::Paint`] or [`PipelineError::Pattern`] if a setting of the
-    /// painting is out of range.
-    pub fn surface(&self, material: &Material, recipe: Option<&Recipe>, progress: &Progress) -> Result<Surface, PipelineError> {
+    /// [`PipelineError::Gpu`] if a map does not fit the adapter.
+    pub fn surface(&self, material: &Material, progress: &Progress) -> Result<Surface, PipelineError> {
         let gpu = self.gpu;
         let [columns, rows] = material.size();
         let (size, texels) = ([stage::count(columns), stage::count(rows)], columns * rows);
         let boundary = material.provenance.settings.boundary;
-        let diffuse = upload_rgb(gpu, "diffuse", &material.svbrdf.diffuse)?;
-        let bare = gpu.upload("height", material.height.values())?;
-        let (heights, painted, coat) = match recipe.and_then(|recipe| recipe.layers.first()) {
-            None => (bare, gpu.zeros("painted", texels)?, Coat::default()),
-            Some(layer) => {
-                layer.clone().checked()?;
-                layer.pattern.checked()?;
-                let drawn = gpu.fresh("drawn", texels)?;
-                run(gpu, progress, "pattern", [texels, 1], |recorder| {
-                    self.pattern.record(recorder, layer.pattern, layer.placement, size, &drawn, 0)
-                })?;
-                let painted = run(gpu, progress, "kubelka_munk", [texels, 1], |recorder| {
-                    self.kubelka_munk.record(recorder, &diffuse, &drawn, layer)
-                })?;
-                let heights =
-                    run(gpu, progress, "paint_relief", [texels, 1], |recorder| self.paint_relief.record(recorder, &bare, &drawn, layer))?;
-                let coat = Coat { refractive_index: layer.refractive_index, roughness: layer.roughness };
-                (heights, painted, coat)
-            }
-        };
+        let height = material.painted.as_ref().map_or(&material.height, |painted| &painted.height);
+        let heights = gpu.upload("height", height.values())?;
         let normals = run(gpu, progress, "normals", [texels, 1], |recorder| self.normals.record(recorder, &heights, size, boundary))?;
-        let range = heights.read(gpu)?.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)]);
+        let range = height.values().iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)]);
+        let (painted, coats) = upload_paint(gpu, material)?;
         let lobes = &material.svbrdf.lobes;
         let specular: Vec<_> = lobes.iter().flat_map(|lobe| lobe.specular.values()).map(|&[r, g, b]| [r, g, b, 0.0]).collect();
         let parameters: Vec<_> = lobes.iter().flat_map(|lobe| lobe.parameters.values()).copied().collect();
@@ -109,11 +85,12 @@ impl<'g> Studio<'g> {
             field: HeightField { size, heights, normals, range, boundary },
             frame: material.svbrdf.frame,
             ambient: material.svbrdf.ambient,
-            diffuse,
+            diffuse: upload_rgb(gpu, "diffuse", &material.svbrdf.diffuse)?,
             specular: gpu.upload("specular", &specular)?,
             lobes: gpu.upload("lobes", &parameters)?,
             painted,
-            coat,
+            coats,
+            method: material.painted.as_ref().map(|painted| painted.method).unwrap_or_default(),
         })
     }
 
@@ -132,14 +109,14 @@ impl<'g> Studio<'g> {
         Ok(Map::new(width, height, picture.read(self.gpu)?)?)
     }
 
-    /// The part of a bare material that `appearance` names.
+    /// The part of a material that `appearance` names; its local PCA is that of the bare one.
     ///
     /// # Errors
     /// [`PipelineError::NoLpca`] if the material has no local PCA and it was asked for, [`PipelineError::Stage`] or [`PipelineError::Gpu`] if
     /// it does not fit the adapter.
     pub fn subject(&self, material: &Material, appearance: Appearance, progress: &Progress) -> Result<Subject, PipelineError> {
         match appearance {
-            Appearance::Svbrdf { relief } => Ok(Subject::Surface { surface: Box::new(self.surface(material, None, progress)?), relief }),
+            Appearance::Svbrdf { relief } => Ok(Subject::Surface { surface: Box::new(self.surface(material, progress)?), relief }),
             Appearance::Lpca { texel_samples } => {
                 let provenance = &material.provenance;
                 let lpca = material.lpca.as_ref().ok_or_else(|| PipelineError::NoLpca { source_name: provenance.source.clone() })?;

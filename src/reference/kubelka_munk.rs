@@ -1,5 +1,6 @@
 //! Twin of `kubelka_munk`: the hyperbolic functions as printed, in a = (S + K)/S and b = √(a² − 1), where they can be
-//! evaluated; films too thick for them are halved and stacked.
+//! evaluated; films too thick for them are halved and stacked. The stack is made without a ground, seen from above and from below, and
+//! laid on it in one formula.
 
 use crate::{data::Map, model::Layer};
 
@@ -27,25 +28,83 @@ pub fn film(scattering: f64, absorption: f64) -> [f64; 2] {
     [sinh / c, b / c]
 }
 
-/// `ground` (ρ_d in rgb, coverage in the fourth component) under `layer` of the thickness `drawn` (thesis eq. 3.9). A ground
-/// above 1 counts as 1, and the rest is seen through the film once.
-#[must_use]
-pub fn kubelka_munk(ground: &Map<[f64; 4]>, drawn: &Map<f64>, layer: &Layer) -> Map<[f64; 4]> {
-    Map::from_fn(ground.width(), ground.height(), |column, row| {
-        let d = layer.thickness * drawn[(column, row)];
-        let below = ground[(column, row)];
-        let mut above = [0.0; 4];
-        for channel in 0..3 {
-            let [r, t] = film(layer.paint.s[channel] * d, layer.paint.k[channel] * d);
-            let white = below[channel].min(1.0);
-            // At R = 1 nothing passes and the quotient is 0/0.
-            let repeated = if r < 1.0 { t * t * white / (1.0 - r * white) } else { 0.0 };
-            above[channel] = r + repeated + t * t * (below[channel] - white);
+/// A texel's paint and its height.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PaintedTexel {
+    /// Diffuse reflectance, R, G, B.
+    pub reflectance: [f64; 3],
+    /// How much of the texel is painted.
+    pub coverage: f64,
+    /// F₀ and α of the topmost surface.
+    pub coat: [f64; 2],
+    /// Texel widths, positive outwards.
+    pub height: f64,
+}
+
+/// A stack of films in one channel: reflectance from above and from below, transmittance.
+#[derive(Clone, Copy)]
+struct Stack {
+    above: f64,
+    below: f64,
+    transmittance: f64,
+}
+
+impl Stack {
+    /// A film laid on top (Kubelka 1948: two sheets).
+    fn under(self, [r, t]: [f64; 2]) -> Self {
+        let series = 1.0 / (1.0 - r * self.above);
+        Self {
+            above: r + t * t * self.above * series,
+            below: self.below + self.transmittance * self.transmittance * r * series,
+            transmittance: t * self.transmittance * series,
         }
-        // The cubic of slope 0 at both ends, through Bernstein's basis.
-        let part = (drawn[(column, row)] / Layer::CLOSED).clamp(0.0, 1.0);
-        let closed = part.powi(3) + 3.0 * part.powi(2) * (1.0 - part);
-        above[3] = below[3] + (1.0 - below[3]) * closed;
-        above
+    }
+
+    /// Reflectance over `ground` (thesis eq. 3.9). What a ground has above 1 is seen through the stack once.
+    fn over(self, ground: f64) -> f64 {
+        let white = ground.min(1.0);
+        let through = self.transmittance * self.transmittance;
+        // At R = 1 from below nothing passes and the quotient is 0/0.
+        let repeated = if self.below < 1.0 { through * white / (1.0 - self.below * white) } else { 0.0 };
+        self.above + repeated + through * (ground - white)
+    }
+}
+
+/// `ground` under `layers`, from the bottom up, each with its drawn thickness: the stack by itself first, then on the ground.
+#[must_use]
+pub fn kubelka_munk(ground: &Map<PaintedTexel>, layers: &[(&Layer, &Map<f64>)]) -> Map<PaintedTexel> {
+    Map::from_fn(ground.width(), ground.height(), |column, row| {
+        let below = ground[(column, row)];
+        let drawn = || layers.iter().map(|(layer, drawn)| (*layer, drawn[(column, row)]));
+        let reflectance = std::array::from_fn(|channel| {
+            let nothing = Stack { above: 0.0, below: 0.0, transmittance: 1.0 };
+            let stack = drawn().fold(nothing, |stack, (layer, drawn)| {
+                let d = layer.thickness * drawn;
+                stack.under(film(layer.paint.s[channel] * d, layer.paint.k[channel] * d))
+            });
+            stack.over(below.reflectance[channel])
+        });
+        // What each surface shows of itself from above: its own cover, less what those above cover.
+        let covers: Vec<_> = std::iter::once((below.coat, below.coverage))
+            .chain(drawn().map(|(layer, drawn)| ([layer.coat().f0(), layer.coat().alpha()], closed(drawn))))
+            .collect();
+        let (mut bare, mut coat) = (1.0, [0.0; 2]);
+        for (surface, cover) in covers.into_iter().rev() {
+            (0..2).for_each(|part| coat[part] += bare * cover * surface[part]);
+            bare *= 1.0 - cover;
+        }
+        let coverage = 1.0 - bare;
+        PaintedTexel {
+            reflectance,
+            coverage,
+            coat: if coverage > 0.0 { coat.map(|part| part / coverage) } else { below.coat },
+            height: below.height + drawn().map(|(layer, drawn)| layer.rise(drawn)).sum::<f64>(),
+        }
     })
+}
+
+/// The cubic of slope 0 at both ends, through Bernstein's basis.
+fn closed(drawn: f64) -> f64 {
+    let part = (drawn / Layer::CLOSED).clamp(0.0, 1.0);
+    part.powi(3) + 3.0 * part.powi(2) * (1.0 - part)
 }

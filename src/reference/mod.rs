@@ -1,5 +1,6 @@
 //! CPU twins of the stages in f64, from the papers, by another route than the kernels. Only tests and benches use them.
 
+mod alpha_blend;
 mod brdf_values;
 mod dark_samples;
 mod fft;
@@ -18,7 +19,6 @@ mod lpca_lift;
 mod lpca_project;
 mod lpca_weights;
 mod normals;
-mod paint_relief;
 mod pattern;
 mod pattern_image;
 mod percentile;
@@ -36,13 +36,14 @@ mod specular_residual;
 mod specular_scale;
 mod synth;
 
+pub use alpha_blend::alpha_blend;
 pub use brdf_values::brdf_values;
 pub use dark_samples::dark_samples;
 pub use fft::fft;
 pub use flatness::flatness;
 pub use frankot_chellappa::frankot_chellappa;
 pub use gather::gather;
-pub use kubelka_munk::{film, kubelka_munk};
+pub use kubelka_munk::{PaintedTexel, film, kubelka_munk};
 pub use lafortune_fit::{LafortuneFit, lafortune_fit, lafortune_gradient, lafortune_objective};
 pub use lafortune_framed::{FramedSample, LafortuneFramed, lafortune_framed, lafortune_framed_change, lafortune_framed_objective};
 pub use linear_refit::linear_refit;
@@ -54,7 +55,6 @@ pub use lpca_lift::lpca_lift;
 pub use lpca_project::lpca_project;
 pub use lpca_weights::lpca_weights;
 pub use normals::normals;
-pub use paint_relief::paint_relief;
 pub use pattern::pattern;
 pub use pattern_image::pattern_image;
 pub use percentile::percentile;

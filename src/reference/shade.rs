@@ -6,7 +6,7 @@ use super::relief::HeightField;
 use crate::{
     data::{Direction, Map},
     model::{
-        Boundary, Coat, Frame, Relief, lafortune,
+        Boundary, Frame, PaintMethod, Relief, lafortune,
         microfacet::{ggx_specular, schlick},
         product_in_frame,
     },
@@ -30,12 +30,14 @@ pub struct Surface {
     pub ambient: f64,
     /// ρ_s and (C_x, C_y, C_z, n) of each lobe of the unpainted material.
     pub lobes: Vec<LobeMaps>,
-    /// Kubelka-Munk reflectance; the fourth value is how much of the texel is painted.
+    /// Reflectance of the paint; the fourth value is how much of the texel is painted.
     pub painted: Map<[f64; 4]>,
     /// What stands beyond the edge.
     pub boundary: Boundary,
-    /// Surface of the paint.
-    pub coat: Coat,
+    /// F₀ and α of the paint's surface.
+    pub coat: Map<[f64; 2]>,
+    /// What the paint does to what lies below it.
+    pub method: PaintMethod,
 }
 
 /// Cosine below which a direction is taken for the horizon.
@@ -59,7 +61,11 @@ impl Surface {
         let mut add = |weight: f64, colour: [f64; 3]| (0..3).for_each(|channel| radiance[channel] += weight * colour[channel]);
         let at_hit = field.corners(place);
         for (texel, weight) in at_hit {
-            add(weight * visible * self.painted[texel][3], self.painted(texel, view, light));
+            let [r, g, b, coverage] = self.painted[texel];
+            match self.method {
+                PaintMethod::KubelkaMunk => add(weight * coverage, self.painted(texel, view, light, visible)),
+                PaintMethod::AlphaBlend => add(weight * coverage * light.z, [r, g, b]),
+            }
         }
         // Of a flat surface the reflectance moves with the relief; in a frame of its own it belongs to the place on the base plane.
         let coverage =
@@ -95,15 +101,18 @@ impl Surface {
     }
 
     /// Kubelka-Munk diffuse (1 − F(θ_i))(1 − F(θ_o))ρ/(1 − F̄) with Schlick's F (Kelemen, Szirmay-Kalos 2001), normals turned from
-    /// the view further than the base plane counted as that plane, and the coat's facets on top.
-    fn painted(&self, texel: (usize, usize), view: DVec3, light: DVec3) -> [f64; 3] {
+    /// the view further than the base plane counted as that plane, and the coat's facets on top, of the share `visible` of the light; and the
+    /// same of light from everywhere, of which the mean of (1 − F)/(1 − F̄) enters: all.
+    fn painted(&self, texel: (usize, usize), view: DVec3, light: DVec3, visible: f64) -> [f64; 3] {
         let normal = DVec3::from_array(self.normals[texel]);
-        let (alpha, f0) = (self.coat.alpha(), self.coat.f0());
+        let [f0, alpha] = self.coat[texel];
         let specular = ggx_specular(normal, view, light, alpha, f0);
         let (cosine_view, cosine_light) = (normal.dot(view), normal.dot(light).max(0.0));
         // Mean over the hemisphere, weighted by the cosine: ∫ 2c(1 − c)⁵ dc = 1/21.
         let fresnel_mean = f0 + (1.0 - f0) / 21.0;
-        let entering = (1.0 - schlick(f0, cosine_light)) * (1.0 - schlick(f0, cosine_view.max(view.z))) / (1.0 - fresnel_mean);
-        std::array::from_fn(|channel| entering * self.painted[texel][channel] * cosine_light + specular)
+        let leaving = 1.0 - schlick(f0, cosine_view.max(view.z));
+        let direct = (1.0 - self.ambient) * visible * cosine_light * (1.0 - schlick(f0, cosine_light)) / (1.0 - fresnel_mean);
+        let around = self.ambient * light.z;
+        std::array::from_fn(|channel| self.painted[texel][channel] * leaving * (direct + around) + visible * specular)
     }
 }

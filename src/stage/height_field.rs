@@ -5,7 +5,7 @@ use crate::{
     data::Direction,
     gpu::{Bind, Buffer, Resource, bind},
     gpu_struct,
-    model::{Boundary, Coat, Frame, Relief},
+    model::{Boundary, Frame, PaintMethod, Relief},
 };
 
 gpu_struct! {
@@ -21,14 +21,10 @@ gpu_struct! {
         lowest: f32,
         highest: f32,
         penumbra: f32,
-        f0: f32,
-        roughness: f32,
         frame: u32,
         lobes: u32,
         ambient: f32,
-        _pad0: u32,
-        _pad1: u32,
-        _pad2: u32,
+        blended: u32,
     }
 }
 
@@ -58,7 +54,7 @@ impl HeightField {
         [bind("scene", scene), bind("heights", &self.heights), bind("normals", &self.normals)]
     }
 
-    /// What rays against it need to know, without a view, a light, a coat or lobes.
+    /// What rays against it need to know, without a view, a light, paint or lobes.
     pub(crate) fn scene(&self, relief: Relief) -> Scene {
         Scene {
             width: self.size[0],
@@ -80,8 +76,8 @@ impl Scene {
         Self { view: vector(view), light: vector(light), ..self }
     }
 
-    pub(super) fn coated(self, coat: Coat) -> Self {
-        Self { f0: single(coat.f0()), roughness: single(coat.alpha()), ..self }
+    pub(super) fn painted(self, method: PaintMethod) -> Self {
+        Self { blended: (method == PaintMethod::AlphaBlend).into(), ..self }
     }
 
     pub(super) fn in_frame(self, frame: Frame, lobes: u32) -> Self {

@@ -1,5 +1,6 @@
 //! Host side of the compute stages, one file each.
 
+mod alpha_blend;
 mod brdf_values;
 mod compressed_btf;
 mod dark_samples;
@@ -22,7 +23,6 @@ mod lpca_members;
 mod lpca_project;
 mod lpca_weights;
 mod normals;
-mod paint_relief;
 mod pattern;
 mod pattern_image;
 mod percentile;
@@ -40,6 +40,7 @@ mod surface;
 mod synth;
 mod tile;
 
+pub use alpha_blend::AlphaBlend;
 pub use brdf_values::BrdfValues;
 pub use compressed_btf::{CompressedBtf, CompressedBtfParams};
 pub use dark_samples::DarkSamples;
@@ -50,7 +51,7 @@ pub use flatness::Flatness;
 pub use frankot_chellappa::FrankotChellappa;
 pub use gather::{Gather, Gathered};
 pub use height_field::{HeightField, Scene};
-pub use kubelka_munk::KubelkaMunk;
+pub use kubelka_munk::{KubelkaMunk, PaintStack};
 pub use lafortune_fit::{FittedLobes, LafortuneFit, STARTS};
 pub use linear_refit::{LinearRefit, Refitted};
 pub use lobe_residual::LobeResidual;
@@ -61,7 +62,6 @@ pub use lpca_members::{Line, Members, MembersOnGpu, octets_by_line};
 pub use lpca_project::{Basis, LpcaProject, Projected};
 pub use lpca_weights::{ClusterTerms, LpcaWeights, Weights};
 pub use normals::Normals;
-pub use paint_relief::PaintRelief;
 pub use pattern::Pattern;
 pub use pattern_image::PatternImage;
 pub use percentile::Percentile;

@@ -4,7 +4,7 @@ use super::{HeightField, Scene, scalar::count};
 use crate::{
     data::{Direction, MAX_LOBES},
     gpu::{Bind, Buffer, Gpu, GpuError, Resource, bind},
-    model::{Coat, Frame, Relief},
+    model::{Frame, PaintMethod, Relief},
 };
 
 /// A material's maps in adapter memory, all `[row][column]` where nothing else is said.
@@ -22,10 +22,12 @@ pub struct Surface {
     pub specular: Buffer<[f32; 4]>,
     /// `[lobe][row][column]` (C_x, C_y, C_z, n) of the unpainted material's lobes.
     pub lobes: Buffer<[f32; 4]>,
-    /// Kubelka-Munk reflectance per channel; w is how much of the texel is painted, 0 to 1.
+    /// ρ_d of the paint on what lies below it, R, G, B; the fourth component is how much of the texel is painted, 0 to 1.
     pub painted: Buffer<[f32; 4]>,
-    /// Surface of the paint.
-    pub coat: Coat,
+    /// F₀ and α of the topmost paint's surface.
+    pub coats: Buffer<[f32; 2]>,
+    /// What it does to what lies below it.
+    pub method: PaintMethod,
 }
 
 impl Surface {
@@ -33,6 +35,7 @@ impl Surface {
     pub(crate) fn resources() -> Vec<Resource> {
         let mut resources = HeightField::resources().to_vec();
         resources.extend(["diffuse", "specular", "lobes", "painted"].map(Resource::read::<[f32; 4]>));
+        resources.push(Resource::read::<[f32; 2]>("coats"));
         resources
     }
 
@@ -44,6 +47,7 @@ impl Surface {
             bind("specular", &self.specular),
             bind("lobes", &self.lobes),
             bind("painted", &self.painted),
+            bind("coats", &self.coats),
         ]);
         binds
     }
@@ -54,7 +58,7 @@ impl Surface {
         let lobes = count((self.lobes.len() / texels).min(MAX_LOBES));
         gpu.uniform(
             "scene",
-            &self.field.scene(relief).lit(view, light).coated(self.coat).in_frame(self.frame, lobes).with_ambient(self.ambient),
+            &self.field.scene(relief).lit(view, light).painted(self.method).in_frame(self.frame, lobes).with_ambient(self.ambient),
         )
     }
 }

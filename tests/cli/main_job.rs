@@ -14,7 +14,7 @@ use super::{overpaint, refused};
 
 crate::suite! {
     gpu: the_report_names_only_files_that_are_there, the_timings_make_sense, info_tells_of_the_material, reconstructions_are_images_of_the_texel_plane,
-        renders_have_the_size_asked_for, a_material_is_not_written_over_something_else;
+        renders_have_the_size_asked_for, a_recipe_is_painted_and_shown, a_material_is_not_written_over_something_else;
 }
 
 const DEMO: &str = "demo";
@@ -117,6 +117,52 @@ fn renders_have_the_size_asked_for(gpu: &Gpu) {
     }
     let read = |file: &str| fs::read(demonstrated(gpu).join(file)).expect("is there");
     assert_ne!(read("bare.png"), read("painted.png"), "paint shows");
+}
+
+const RECIPE: &str = r#"
+[[layer]]
+paint = "oil/cobalt blue"
+pattern = { kind = "splash", seed = 3 }
+thickness = 4
+relief = 1.5
+
+[[layer]]
+paint = "watercolour/hansa yellow"
+pattern = { kind = "stripes", count = 3 }
+placement = { rotation = 45 }
+thickness = 1
+"#;
+
+/// Painted first and looked at then, or at once: the same pictures. Alpha blending gives others.
+fn a_recipe_is_painted_and_shown(gpu: &Gpu) {
+    let folder = demonstrated(gpu);
+    fs::write(folder.join("recipe.toml"), RECIPE).expect("is written");
+    succeed(gpu, &["paint", MATERIAL, "--recipe", "recipe.toml", "-o", "painted.zarr"]);
+    let read = |file: &str| fs::read(folder.join(file)).expect("is there");
+    let directions = ["--view", "20,30", "--light", "50,120"];
+    for command in ["render", "reconstruct"] {
+        let show = |material: &str, file: &str, options: &[&str]| {
+            succeed(gpu, &[&[command, material, "-o", file], &directions[..], options].concat());
+            read(file)
+        };
+        let bare = show(MATERIAL, "bare.exr", &[]);
+        let stored = show("painted.zarr", "stored.exr", &[]);
+        assert_eq!(stored, show(MATERIAL, "at_once.exr", &["--recipe", "recipe.toml"]), "{command}");
+        let blended = show(MATERIAL, "blended.exr", &["--recipe", "recipe.toml", "--alpha-blend"]);
+        assert!(stored != bare && blended != bare && stored != blended, "{command}");
+    }
+    let told = succeed(gpu, &["info", "painted.zarr"]);
+    assert!(told.contains("oil/cobalt blue, splash, thickness 4, relief 1.5") && told.contains("watercolour/hansa yellow, stripes"), "{told}");
+    assert!(succeed(gpu, &["info", MATERIAL]).contains("paint         none"));
+
+    let both = ["render", MATERIAL, "--recipe", "recipe.toml", "--paint", "viridian", "--thickness", "1", "-o", "no.png"];
+    refused(&overpaint(folder, &both), 2, "cannot be used with");
+    refused(&overpaint(folder, &["render", MATERIAL, "--alpha-blend", "-o", "no.png"]), 2, "--alpha-blend is for paint");
+    let of_lpca = ["reconstruct", MATERIAL, "--model", "lpca", "--recipe", "recipe.toml", "-o", "no.png"];
+    refused(&overpaint(folder, &[&of_lpca, &directions[..]].concat()), 2, "leave out --model lpca");
+    refused(&overpaint(folder, &["paint", MATERIAL, "--recipe", "absent.toml", "-o", "no.zarr"]), 1, "absent.toml");
+    fs::write(folder.join("wrong.toml"), RECIPE.replace("cobalt blue", "cobolt blue")).expect("is written");
+    refused(&overpaint(folder, &["paint", MATERIAL, "--recipe", "wrong.toml", "-o", "no.zarr"]), 1, "wrong.toml:3:9");
 }
 
 fn a_material_is_not_written_over_something_else(gpu: &Gpu) {

@@ -40,7 +40,7 @@ fn source(picture: impl FnMut(Direction, Direction) -> Map<[f16; 3]>) -> Held {
 /// What `reconstruct` makes of the material, times `factor`.
 fn reconstructed(gpu: &Gpu, material: &Material, factor: f32) -> Held {
     let (studio, progress) = (Studio::new(gpu).expect("builds"), Progress::new(gpu.adapter()));
-    let surface = studio.surface(material, None, &progress).expect("fits");
+    let surface = studio.surface(material, &progress).expect("fits");
     source(|view, light| {
         let picture = studio.reconstruct(&surface, view, light, Relief::measured(), &progress).expect("reconstructs");
         picture.map(|&[r, g, b, _]| [r, g, b].map(|value| f16::from_f32(factor * value)))
@@ -74,7 +74,7 @@ fn figures_are_those_of_all_values_in_f64(gpu: &Gpu) {
     let (material, source) = (material(gpu), speckled());
     let found = compared(gpu, &source, &material, Memory::default());
     let (studio, progress) = (Studio::new(gpu).expect("builds"), Progress::new(gpu.adapter()));
-    let surface = studio.surface(&material, None, &progress).expect("fits");
+    let surface = studio.surface(&material, &progress).expect("fits");
     let errors: Vec<reference::PictureError> = source.btf.pairs().iter().zip(&source.pictures).map(|(pair, original)| {
         let (view, light) = (source.btf.views()[pair.view], source.btf.lights()[pair.light]);
         let picture = studio.reconstruct(&surface, view, light, Relief::measured(), &progress).expect("reconstructs");

@@ -1,15 +1,20 @@
 use overpaint::{
     gpu::Gpu,
-    model::{Film, Layer, Paint, kubelka_munk::opaque_reflectance, pigments},
-    stage,
+    model::{Film, Layer, kubelka_munk::opaque_reflectance, pigments},
 };
 
-use crate::support::{Worst, hold, random::Random};
+use crate::support::{
+    Worst, hold,
+    paint::{Texel, grey, lay},
+    random::Random,
+    worst_difference,
+};
 
 crate::suite! {
     plain: printed_values_hold_in_f64, films_obey_their_limits, a_divided_film_is_the_film, a_ground_above_white_adds_what_shows_through;
     gpu: printed_values_hold_on_the_gpu, no_coat_leaves_the_ground, an_opaque_coat_hides_the_ground, films_without_absorption_or_scattering,
-        a_divided_layer_is_the_layer, more_paint_covers_more, a_white_coat_on_white_stays_white, coverage_is_the_product_of_bare_parts;
+        a_divided_layer_is_the_layer, more_paint_covers_more, a_white_coat_on_white_stays_white, coverage_is_the_product_of_bare_parts,
+        batches_make_no_difference, layers_add_up_and_bare_texels_stay, the_topmost_surface_shows;
 }
 
 /// (s, k, R, T), computed with 30 digits.
@@ -22,21 +27,10 @@ const PRINTED: [[f64; 4]; 4] = [
 /// The second over the third: R, T.
 const STACKED: [f64; 2] = [0.278571382790, 0.196505775840];
 
-fn grey(s: f64, k: f64) -> Layer {
-    Layer::new(Paint { name: "grey".to_owned(), k: [k; 3], s: [s; 3] }, 1.0, 0.0)
-}
-
 /// ρ_d and coverage of `grounds` under `layers`, the bottom one first, each with its thickness at every texel.
 fn paint(gpu: &Gpu, grounds: &[[f32; 4]], layers: &[(&Layer, &[f32])]) -> Vec<[f32; 4]> {
-    let stage = stage::KubelkaMunk::new(gpu).expect("builds");
-    let mut recorder = gpu.recorder();
-    let mut result = gpu.upload("ground", grounds).expect("fits");
-    for (layer, drawn) in layers {
-        let drawn = gpu.upload("drawn", drawn).expect("fits");
-        result = stage.record(&mut recorder, &result, &drawn, layer).expect("records");
-    }
-    gpu.submit(recorder).wait(gpu).expect("runs");
-    result.read(gpu).expect("reads")
+    let grounds: Vec<_> = grounds.iter().map(|&painted| Texel { painted, ..Texel::bare([0.0; 3]) }).collect();
+    lay(gpu, &grounds, layers, 4).into_iter().map(|texel| texel.painted).collect()
 }
 
 /// The larger error of a film's two values.
@@ -164,7 +158,8 @@ fn films_without_absorption_or_scattering(gpu: &Gpu) {
 }
 
 fn a_divided_layer_is_the_layer(gpu: &Gpu) {
-    let grounds = random_grounds(500).into_iter().map(|[r, g, b, w]| [r.min(1.0), g, b, w]).collect::<Vec<_>>();
+    // Grounds above 1 too: what they have more is seen through the whole stack.
+    let grounds = random_grounds(500);
     let drawn = [1.0_f32; 500];
     for pigment in pigments::all() {
         let whole = Layer::new(pigment.into(), 1.5, 0.0);
@@ -220,5 +215,45 @@ fn coverage_is_the_product_of_bare_parts(gpu: &Gpu) {
     for (once, twice) in once.iter().zip(&twice) {
         let bare = 1.0 - f64::from(once[3]);
         hold("kubelka_munk: coverage of two layers", (f64::from(twice[3]) - (1.0 - bare * bare)).abs(), 2e-7);
+    }
+}
+
+/// The same layers one by one, in threes and all at once: the same bits, over grounds above 1 too.
+fn batches_make_no_difference(gpu: &Gpu) {
+    let grounds: Vec<_> = random_grounds(300).into_iter().map(|[r, g, b, _]| Texel::bare([r, g, b])).collect();
+    let mut random = Random::new(9);
+    let layers: Vec<_> = pigments::all().map(|pigment| Layer::new(pigment.into(), 0.2, 0.3)).collect();
+    let drawn: Vec<Vec<f32>> = layers.iter().map(|_| (0..300).map(|_| random.unit() as f32).collect()).collect();
+    let layers: Vec<_> = layers.iter().zip(&drawn).map(|(layer, drawn)| (layer, &drawn[..])).collect();
+    let [at_once, in_threes, one_by_one] = [layers.len(), 3, 1].map(|batch| lay(gpu, &grounds, &layers, batch));
+    assert!(at_once == in_threes && at_once == one_by_one);
+}
+
+/// Two layers rise by the sum of their reliefs, exactly in binary fractions; where nothing is drawn no bit changes.
+fn layers_add_up_and_bare_texels_stay(gpu: &Gpu) {
+    let layers = [0.5, 2.0].map(|relief| Layer { relief, ..grey(1.0, 0.3) });
+    let heights = [-1.5_f32, 0.1, 3.0, 0.7];
+    let mut grounds = [[0.3, 0.2, 1.4], [0.7, 0.1, 1.1], [0.2; 3], [0.9, 1.5, 0.0]].map(Texel::bare);
+    grounds.iter_mut().zip(heights).for_each(|(ground, height)| ground.height = height);
+    let drawn = [1.0_f32, 0.0, 0.5, 0.0];
+    let painted = lay(gpu, &grounds, &[(&layers[0], &drawn), (&layers[1], &drawn)], 2);
+    assert_eq!(painted.iter().map(|texel| texel.height).collect::<Vec<_>>(), [1.0, heights[1], 4.25, heights[3]]);
+    for bare in [1, 3] {
+        assert_eq!(painted[bare].values()[3..], grounds[bare].values()[3..]);
+        // Above 1 the ground is taken apart and put together again.
+        hold("kubelka_munk: no layer", worst_difference(painted[bare].values(), grounds[bare].values()), 1.2e-7);
+    }
+}
+
+/// Of closed layers the last one's surface, whatever is below; of a layer that is half closed over a closed one half of each.
+fn the_topmost_surface_shows(gpu: &Gpu) {
+    let below = Layer { refractive_index: 1.4, roughness: 0.6, ..grey(1.0, 1.0) };
+    let above = Layer { refractive_index: 2.0, roughness: 0.2, ..grey(1.0, 1.0) };
+    let drawn = [0.0_f32, 0.025, 1.0];
+    let painted = lay(gpu, &[Texel::bare([0.5; 3]); 3], &[(&below, &[1.0; 3]), (&above, &drawn)], 2);
+    for (texel, share) in painted.iter().zip([0.0, 0.5, 1.0]) {
+        let mixed = |below: f64, above: f64| below + share * (above - below);
+        let expected = [mixed(below.coat().f0(), above.coat().f0()), mixed(0.6, 0.2)];
+        hold("kubelka_munk: the topmost surface", worst_difference(texel.values()[4..].iter().copied(), expected), 1e-7);
     }
 }

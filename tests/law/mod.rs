@@ -1,6 +1,7 @@
 //! What must hold without a twin.
 
 crate::suites! {
+    alpha_blend,
     brdf_values,
     color,
     compare,
@@ -10,6 +11,7 @@ crate::suites! {
     flatness,
     frankot_chellappa,
     gather,
+    inverse,
     kubelka_munk,
     lafortune_fit,
     lafortune_framed,
@@ -20,8 +22,9 @@ crate::suites! {
     lpca_edges,
     masked,
     microfacet,
+    mixture,
     normals,
-    paint_relief,
+    paint,
     path_traced,
     pattern,
     pattern_image,

@@ -7,7 +7,7 @@ use overpaint::{
 
 use crate::support::{
     Worst, hold,
-    surface::{bumpy, plain, reconstruct, upload, with_heights},
+    surface::{bumpy, coat, plain, reconstruct, upload, with_heights},
 };
 
 crate::suite! {
@@ -46,7 +46,7 @@ fn unpainted_texels_know_no_paint(gpu: &Gpu) {
     }
     let bare = reference::Surface {
         painted: surface.painted.map(|_| [0.0; 4]),
-        coat: Coat { refractive_index: 2.2, roughness: 0.05 },
+        coat: surface.coat.map(|_| coat(Coat { refractive_index: 2.2, roughness: 0.05 })),
         ..surface.clone()
     };
     let (view, light) = (degrees(50.0, 200.0), degrees(60.0, 30.0));
@@ -195,7 +195,7 @@ fn a_turned_frame_sees_turned_directions(gpu: &Gpu) {
 fn paint_returns_no_more_than_it_gets(gpu: &Gpu) {
     let mut surface = plain(1, 1);
     surface.painted[(0, 0)] = [1.0; 4];
-    surface.coat = Coat { refractive_index: 1.6, roughness: 0.4 };
+    surface.coat = Map::from_fn(1, 1, |_, _| coat(Coat { refractive_index: 1.6, roughness: 0.4 }));
     let surface = upload(gpu, &surface);
     let stage = stage::Reconstruct::new(gpu).expect("builds");
     for theta_view in [0.0, 40.0, 75.0] {

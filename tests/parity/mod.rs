@@ -1,6 +1,7 @@
 //! Each kernel against its twin.
 
 crate::suites! {
+    alpha_blend,
     brdf_values,
     dark_samples,
     direction_mesh,
@@ -20,7 +21,6 @@ crate::suites! {
     lpca_project,
     lpca_weights,
     normals,
-    paint_relief,
     pattern,
     pattern_image,
     percentile,

@@ -3,13 +3,33 @@
 use half::f16;
 use overpaint::{
     data::{
-        Candidate, Choice, Direction, Encoding, Fit, FitStatus, Learned, Left, Lobe, Lpca, LpcaCandidate, MAX_LOBES, Map, Material, Pair,
-        Provenance, Svbrdf, Transfer,
+        Candidate, Choice, Direction, Encoding, Fit, FitStatus, Learned, Left, Lobe, Lpca, LpcaCandidate, MAX_LOBES, Map, Material,
+        Painted, Pair, Provenance, Svbrdf, Transfer,
     },
-    model::{FitSettings, Frame, SurfaceMode},
+    model::{FitSettings, Frame, Layer, Paint, PaintMethod, Pattern, Placement, SurfaceMode},
 };
 
 use super::random::Random;
+
+/// Paint of random numbers on a plane: two layers, one of which draws an image.
+pub fn painted([width, height]: [usize; 2], seed: u64) -> Painted {
+    let mut random = Random::new(seed);
+    let mut value = move || random.between(0.0, 1.0) as f32;
+    let layer =
+        |name: &str, pattern| Layer { pattern, ..Layer::new(Paint { name: name.to_owned(), k: [0.1 + 0.2; 3], s: [1e-7; 3] }, 0.3, 2.0) };
+    let mut turned = layer("watercolour/own", Pattern::Splash { seed: u32::MAX });
+    turned.placement = Placement { tiling: [2, 3], offset: [0.1 + 0.2, -1.0], rotation: std::f64::consts::PI, size: 1.0 / 3.0 };
+    Painted {
+        method: PaintMethod::KubelkaMunk,
+        layers: vec![turned, layer("leaf", Pattern::Image { image: 0 })],
+        images: vec!["leaf.png".to_owned()],
+        height: Map::from_fn(width, height, |_, _| value()),
+        normal: Map::from_fn(width, height, |_, _| [value(), value(), value()]),
+        reflectance: Map::from_fn(width, height, |_, _| [value(), value(), value()]),
+        coverage: Map::from_fn(width, height, |_, _| value()),
+        coat: Map::from_fn(width, height, |_, _| [value(), value()]),
+    }
+}
 
 /// A material of 2 views and 3 lights, without a local PCA.
 pub fn sample([width, height]: [usize; 2], seed: u64) -> Material {

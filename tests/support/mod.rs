@@ -9,6 +9,7 @@ pub mod local;
 pub mod lpca;
 pub mod material;
 pub mod npy;
+pub mod paint;
 pub mod probe;
 pub mod random;
 pub mod speckle;

@@ -6,7 +6,7 @@ use nv_flip::{FlipImageRgb8, FlipPool};
 use overpaint::{
     data::{Direction, Map},
     gpu::Gpu,
-    model::{Boundary, Coat, Frame, Relief},
+    model::{Boundary, Coat, Frame, PaintMethod, Relief},
     reference, stage,
 };
 
@@ -23,8 +23,14 @@ pub fn plain(width: usize, height: usize) -> reference::Surface {
         lobes: vec![(Map::from_fn(width, height, |_, _| [0.0; 3]), Map::from_fn(width, height, |_, _| [-1.0, -1.0, 1.0, 1.0]))],
         painted: Map::from_fn(width, height, |_, _| [0.0; 4]),
         boundary: Boundary::Periodic,
-        coat: Coat::default(),
+        coat: Map::from_fn(width, height, |_, _| coat(Coat::default())),
+        method: PaintMethod::default(),
     }
+}
+
+/// F₀ and α as both sides have them.
+pub fn coat(coat: Coat) -> [f64; 2] {
+    [coat.f0(), coat.alpha()].map(single)
 }
 
 /// Rounded through f32, so that both sides start from the same numbers.
@@ -86,7 +92,8 @@ pub fn upload(gpu: &Gpu, surface: &reference::Surface) -> stage::Surface {
         specular: upload(surface.lobes.iter().flat_map(|(specular, _)| three(specular)).collect()),
         lobes: upload(surface.lobes.iter().flat_map(|(_, lobe)| four(lobe)).collect()),
         painted: upload(four(&surface.painted)),
-        coat: surface.coat,
+        coats: gpu.upload("coats", &surface.coat.values().iter().map(|coat| coat.map(|x| x as f32)).collect::<Vec<_>>()).expect("fits"),
+        method: surface.method,
     }
 }
 

@@ -8,7 +8,10 @@ use crate::data::{MAX_LOBES, Material};
 pub const MATERIAL_FORMAT: &str = "overpaint material";
 
 /// Version of the form, in the group's attributes.
-pub(super) const VERSION: u64 = 3;
+pub(super) const VERSION: u64 = 4;
+
+/// Versions that can be read. The third has no paint and is the fourth otherwise.
+pub(super) const READ_VERSIONS: [u64; 2] = [3, VERSION];
 
 /// Rows and columns of a chunk, fewer where the plane has fewer.
 const CHUNK: u64 = 256;
@@ -158,11 +161,24 @@ pub(super) const LPCA_PAIRS: Layout = layout(
     "local PCA: view and light of the sample, in the provenance's lists of views and lights",
 );
 
+pub(super) const PAINT_HEIGHT: Layout =
+    layout("paint_height", SCALAR, "texel widths", "height of the painted surface, over the same plane as the material's own");
+pub(super) const PAINT_NORMAL: Layout = layout("paint_normal", XYZ, "1", "unit normals of the painted surface");
+pub(super) const PAINT_REFLECTANCE: Layout =
+    layout("paint_reflectance", RGB, "reflectance", "diffuse reflectance of the paint on the material's (Kubelka, Munk 1931)");
+pub(super) const PAINT_COVERAGE: Layout = layout("paint_coverage", SCALAR, "1", "how much of the texel is painted, 0 to 1");
+pub(super) const PAINT_COAT: Layout = layout(
+    "paint_coat",
+    &[Row, Column, Of("parameter", &["F0", "alpha"])],
+    "1",
+    "surface of the topmost paint: reflectance at normal incidence, and width of its GGX lobe",
+);
+
 /// Names of the arrays of the local PCA.
 pub(super) const LPCA_NAMES: [&str; 5] = [LPCA_CLUSTER.name, LPCA_WEIGHTS.name, LPCA_TERMS.name, LPCA_ERROR.name, LPCA_PAIRS.name];
 
 /// Names of all arrays.
-pub(super) const NAMES: [&str; 21] = [
+pub(super) const NAMES: [&str; 26] = [
     HEIGHT.name,
     NORMAL.name,
     NORMAL_MEASURED.name,
@@ -184,6 +200,11 @@ pub(super) const NAMES: [&str; 21] = [
     LPCA_TERMS.name,
     LPCA_ERROR.name,
     LPCA_PAIRS.name,
+    PAINT_HEIGHT.name,
+    PAINT_NORMAL.name,
+    PAINT_REFLECTANCE.name,
+    PAINT_COVERAGE.name,
+    PAINT_COAT.name,
 ];
 
 impl Layout {

@@ -8,6 +8,7 @@
 mod array;
 mod format;
 mod lpca;
+mod paint;
 
 use std::{fmt::Display, path::Path, sync::Arc};
 
@@ -55,6 +56,9 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
     if let Some(lpca) = &material.lpca {
         lpca::store(&writer, lpca, &material.provenance)?;
     }
+    if let Some(painted) = &material.painted {
+        paint::store(&writer, painted)?;
+    }
 
     let [width, height] = material.size();
     let provenance = serde_json::to_value(&material.provenance).map_err(|error| not_written(path, &error))?;
@@ -68,6 +72,7 @@ pub fn save(path: &Path, material: &Material) -> Result<(), IoError> {
         ("choice", json!(material.choice)),
         ("lobes", json!(lobes.len())),
         ("lpca", json!(material.lpca.as_ref().map(lpca::Attribute::of))),
+        ("paint", json!(material.painted.as_ref().map(paint::Attribute::of))),
         ("conventions", conventions::MATERIAL.iter().copied().collect()),
         ("provenance", provenance),
     ];
@@ -90,7 +95,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
     let not_a_material = |found: String| IoError::NotAMaterial { path: path.to_owned(), found };
     let attributes = group::attributes(path, MATERIAL_FORMAT).map_err(not_a_material)?;
     let version = &attributes["format_version"];
-    if version.as_u64() != Some(format::VERSION) {
+    if !version.as_u64().is_some_and(|version| format::READ_VERSIONS.contains(&version)) {
         return Err(IoError::Version { path: path.to_owned(), what: "material", found: version.to_string(), expected: format::VERSION });
     }
     let side = |name: &str| {
@@ -110,6 +115,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         .map_err(|error| not_a_material(format!("its attribute \"provenance\" cannot be read: {error}")))?;
 
     let lpca = lpca::Attribute::read(&attributes["lpca"]).map_err(|found| not_a_material(format!("its attribute \"lpca\" {found}")))?;
+    let paint = paint::Attribute::read(&attributes["paint"]).map_err(|found| not_a_material(format!("its attribute \"paint\" {found}")))?;
 
     let store = Arc::new(FilesystemStore::new(path).map_err(|error| not_a_material(error.to_string()))?);
     let lengths = lpca.as_ref().map_or(Lengths { plane, samples: 0, clusters: 0, components: 0 }, |lpca| lpca.lengths(plane));
@@ -129,7 +135,7 @@ pub fn load(path: &Path) -> Result<Material, IoError> {
         albedo: reader.scalars(&format::ALBEDO)?,
         svbrdf: Svbrdf { frame, ambient, diffuse: reader.vectors(&format::DIFFUSE)?, lobes },
         lpca: lpca.map(|attribute| lpca::load(&reader, attribute, &provenance)).transpose()?,
-        painted: None,
+        painted: paint.map(|attribute| paint::load(&reader, attribute)).transpose()?,
         fit: Fit {
             objective_without_lobe: reader.scalars(&format::OBJECTIVE_WITHOUT_LOBE)?,
             objective: reader.scalars(&format::OBJECTIVE)?,

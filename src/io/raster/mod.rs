@@ -2,6 +2,7 @@
 //!
 //! The format is told by the content, not the extension. Sizes are judged before anything is allocated for them.
 
+mod drawing;
 mod float_tiff;
 mod jpeg;
 mod openexr;
@@ -13,6 +14,8 @@ use std::{
 };
 
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
+
+pub(super) use drawing::drawing;
 
 use super::{IoError, archive::first_bytes};
 use crate::data::Transfer;

@@ -4,8 +4,12 @@
 //! *substitutes* for the coefficients of Baxter, Wendt and Lin 2004, which are not published: measured two-constant data
 //! of artists' paints at the same wavelengths.
 
+mod names;
 mod table;
 
+pub use names::plain;
+
+use names::{nearest, shortened};
 use table::{OILS, WATERCOLOURS};
 
 /// A group of pigments with one unit of thickness.
@@ -60,6 +64,39 @@ pub enum Grade {
     StandIn,
     /// C: a substitute; derived, S to an order of magnitude.
     Derived,
+}
+
+impl Grade {
+    /// All, the best known first.
+    pub const ALL: [Self; 4] = [Self::Published, Self::Measured, Self::StandIn, Self::Derived];
+
+    /// Name, as listings have it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Published => "published",
+            Self::Measured => "A",
+            Self::StandIn => "B",
+            Self::Derived => "C",
+        }
+    }
+
+    /// What it says of the coefficients.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Published => "as printed by the authors of the set",
+            Self::Measured => "a substitute: the pigment itself, K and S measured, in another binder",
+            Self::StandIn => "a substitute: a measured stand-in or mixture whose opaque colour matches the paint of that name",
+            Self::Derived => "a substitute: derived, S to an order of magnitude",
+        }
+    }
+
+    /// Whether the coefficients stand for others that are not published.
+    #[must_use]
+    pub fn is_substitute(self) -> bool {
+        self != Self::Published
+    }
 }
 
 /// A pigment of the library.
@@ -118,6 +155,14 @@ pub fn all() -> impl Iterator<Item = &'static Pigment> {
 /// # Errors
 /// [`PigmentError`] if there is none or more than one.
 pub fn find(name: &str) -> Result<&'static Pigment, PigmentError> {
+    find_beside(name, &[])
+}
+
+/// As [`find`]; if there is none, the nearest names are looked for among `others`, too.
+///
+/// # Errors
+/// As [`find`].
+pub fn find_beside(name: &str, others: &[&str]) -> Result<&'static Pigment, PigmentError> {
     let wanted = plain(name);
     let matching: Vec<_> = match name.split_once('/') {
         Some(_) => all().filter(|pigment| plain(&pigment.full_name()) == wanted).collect(),
@@ -125,40 +170,17 @@ pub fn find(name: &str) -> Result<&'static Pigment, PigmentError> {
     };
     match matching[..] {
         [pigment] => Ok(pigment),
-        [] => Err(PigmentError::Unknown { name: name.to_owned(), near: quoted(&nearest(&wanted)) }),
-        _ => Err(PigmentError::Ambiguous { name: name.to_owned(), choices: quoted(&matching) }),
-    }
-}
-
-/// Letters and digits in lower case.
-fn plain(name: &str) -> String {
-    name.chars().filter(|character| character.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
-
-fn quoted(pigments: &[&Pigment]) -> String {
-    pigments.iter().map(|pigment| format!("\"{}\"", pigment.full_name())).collect::<Vec<_>>().join(", ")
-}
-
-/// The four pigments whose name, with or without its set, takes the fewest edits to become `wanted`.
-fn nearest(wanted: &str) -> Vec<&'static Pigment> {
-    let mut pigments: Vec<_> = all().collect();
-    pigments.sort_by_key(|pigment| edits(wanted, &plain(pigment.name)).min(edits(wanted, &plain(&pigment.full_name()))));
-    pigments.truncate(4);
-    pigments
-}
-
-/// Letters to insert, delete or replace to turn one word into the other (Levenshtein 1966).
-fn edits(from: &str, to: &str) -> usize {
-    let to: Vec<_> = to.chars().collect();
-    let mut row: Vec<_> = (0..=to.len()).collect();
-    for letter in from.chars() {
-        let mut diagonal = row[0];
-        row[0] += 1;
-        for column in 1..row.len() {
-            let replaced = diagonal + usize::from(to[column - 1] != letter);
-            diagonal = row[column];
-            row[column] = replaced.min(diagonal + 1).min(row[column - 1] + 1);
+        [] => {
+            let names = others.iter().map(|other| (*other).to_owned()).chain(all().map(Pigment::full_name)).collect();
+            Err(PigmentError::Unknown { name: shortened(name), near: quoted(nearest(name, names)) })
+        }
+        _ => {
+            let choices = quoted(matching.iter().map(|pigment| pigment.full_name()));
+            Err(PigmentError::Ambiguous { name: shortened(name), choices })
         }
     }
-    row[to.len()]
+}
+
+fn quoted(names: impl IntoIterator<Item = String>) -> String {
+    names.into_iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
 }

@@ -78,8 +78,8 @@ pub fn between(job: &Job<'_>, subject: &Subject) -> Result<Figure, PipelineError
         Ok(Row { label, cells: cells.collect::<Result<_, PipelineError>>()? })
     };
     Ok(Figure {
-        stem: "between",
-        title: "Between measured directions",
+        stem: "between".to_owned(),
+        title: "Between measured directions".to_owned(),
         caption: "Views and lights in even steps, most of them not measured: interpolated between the nearest measured ones.".to_owned(),
         columns: (1..=STEPS).map(|step| step.to_string()).collect(),
         rows: WAYS.iter().map(row).collect::<Result<_, PipelineError>>()?,

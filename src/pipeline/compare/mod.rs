@@ -137,6 +137,9 @@ pub fn check_comparison(folder: &Path) -> Result<(), IoError> {
 /// Checks that source and material go together and have the texel asked for.
 fn check_pair(source: &dyn Source, material: &Material, settings: &CompareSettings) -> Result<(), PipelineError> {
     let btf = source.btf();
+    if material.painted.is_some() {
+        return Err(PipelineError::Painted);
+    }
     if btf.size() != material.size() {
         return Err(PipelineError::SizesDiffer {
             source_name: btf.name().to_owned(),

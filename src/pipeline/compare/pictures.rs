@@ -138,8 +138,8 @@ impl Job<'_> {
             self.row(subject, sample, together(&format!("light {light}")))
         });
         Ok(Figure {
-            stem,
-            title,
+            stem: stem.to_owned(),
+            title: title.to_owned(),
             caption: format!("View {}, light from the right. {}", btf.views()[view], differences()),
             columns: columns(),
             rows: rows.collect::<Result<_, _>>()?,
@@ -154,8 +154,8 @@ impl Job<'_> {
             self.row(subject, pair.sample, together(&format!("view {view}")) + " " + &together(&format!("light {light}")))
         });
         Ok(Figure {
-            stem: "worst",
-            title: "Worst pairs",
+            stem: "worst".to_owned(),
+            title: "Worst pairs".to_owned(),
             caption: format!("The pairs of the largest relative RMS error. {}", differences()),
             columns: columns(),
             rows: rows.collect::<Result<_, _>>()?,
@@ -213,8 +213,8 @@ impl Job<'_> {
         let named = self.comparison.worst_texels.iter().map(|texel| format!("{},{} ({:.3})", texel.column, texel.row, texel.relative_rms));
         let named = named.collect::<Vec<_>>().join(", ");
         Ok(Some(Figure {
-            stem: "texels",
-            title: "Where the error is",
+            stem: "texels".to_owned(),
+            title: "Where the error is".to_owned(),
             caption: format!(
                 "Relative RMS error of each texel over all pairs, from 0 (black) to {white:.3} and above (white; a hundredth of the texels); the \
                  largest is {worst:.3}. Worst texels as column,row: {named}."
@@ -250,8 +250,8 @@ impl Job<'_> {
             }
         }
         Figure {
-            stem: "texel",
-            title: "One texel's measurement and its fit",
+            stem: "texel".to_owned(),
+            title: "One texel's measurement and its fit".to_owned(),
             caption: format!(
                 "Texel {},{}: a row a view, a column a light, in the order of the source. Above, the measurement through the steps of the fit; \
                  below each step what the material has in its place.",
