@@ -63,11 +63,11 @@ pub enum Pattern {
 
 /// A pattern or placement that cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the {setting} of {of} is {found}; it must be {expected}")]
+#[error("the setting \"{setting}\" of {of} is {found}; it must be {expected}")]
 pub struct PatternError {
     /// "stripes", "a brush stroke", "a placement" and so on.
     pub of: &'static str,
-    /// Which setting: "width", "number of petals" and so on.
+    /// Which setting, by its name in recipes.
     pub setting: &'static str,
     /// The value.
     pub found: f64,
@@ -138,25 +138,23 @@ impl Pattern {
         let refused = |of, setting, found, expected| Err(PatternError { of, setting, found, expected });
         match self {
             Self::Uniform { drawn } if !(0.0..=1.0).contains(&drawn) => {
-                refused("a uniform pattern", "drawn thickness", drawn, "at least 0 and at most 1")
+                refused("a uniform pattern", "drawn", drawn, "at least 0 and at most 1")
             }
             Self::Flower { petals, .. } if !(3..=16).contains(&petals) => {
-                refused("a flower", "number of petals", petals.into(), "at least 3 and at most 16")
+                refused("a flower", "petals", petals.into(), "at least 3 and at most 16")
             }
             Self::Brush { width, .. } if !(0.01..=0.5).contains(&width) => {
                 refused("a brush stroke", "width", width, "at least 0.01 and at most 0.5 of the cell's shorter edge")
             }
             Self::Spatter { cover, .. } if !(cover > 0.0 && cover <= 0.9) => {
-                refused("a spatter", "covered part", cover, "above 0 and at most 0.9")
+                refused("a spatter", "cover", cover, "above 0 and at most 0.9")
             }
             Self::Stripes { count, .. } if !(1..=1000).contains(&count) => {
-                refused("stripes", "number", count.into(), "at least 1 and at most 1000")
+                refused("stripes", "count", count.into(), "at least 1 and at most 1000")
             }
-            Self::Stripes { width, .. } if !(width > 0.0 && width < 1.0) => {
-                refused("stripes", "painted part", width, "above 0 and below 1")
-            }
+            Self::Stripes { width, .. } if !(width > 0.0 && width < 1.0) => refused("stripes", "width", width, "above 0 and below 1"),
             Self::Noise { count, .. } if !(1..=1000).contains(&count) => {
-                refused("noise", "number of clouds", count.into(), "at least 1 and at most 1000")
+                refused("noise", "count", count.into(), "at least 1 and at most 1000")
             }
             _ => Ok(self),
         }

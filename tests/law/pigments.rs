@@ -75,14 +75,14 @@ fn impossible_patterns_are_refused() {
     ] {
         assert_eq!(found(pattern), "accepted", "{pattern:?}");
     }
-    assert_eq!(found(Pattern::Uniform { drawn: 1.5 }), "the drawn thickness of a uniform pattern is 1.5; it must be at least 0 and at most 1");
-    assert_eq!(found(Pattern::Flower { seed: 1, petals: 2 }), "the number of petals of a flower is 2; it must be at least 3 and at most 16");
-    let error = "the width of a brush stroke is 0.8; it must be at least 0.01 and at most 0.5 of the cell's shorter edge";
+    assert_eq!(found(Pattern::Uniform { drawn: 1.5 }), "the setting \"drawn\" of a uniform pattern is 1.5; it must be at least 0 and at most 1");
+    assert_eq!(found(Pattern::Flower { seed: 1, petals: 2 }), "the setting \"petals\" of a flower is 2; it must be at least 3 and at most 16");
+    let error = "the setting \"width\" of a brush stroke is 0.8; it must be at least 0.01 and at most 0.5 of the cell's shorter edge";
     assert_eq!(found(Pattern::Brush { seed: 1, width: 0.8 }), error);
-    assert_eq!(found(Pattern::Spatter { seed: 1, cover: 0.0 }), "the covered part of a spatter is 0; it must be above 0 and at most 0.9");
-    assert_eq!(found(Pattern::Stripes { count: 0, width: 0.5 }), "the number of stripes is 0; it must be at least 1 and at most 1000");
-    assert_eq!(found(Pattern::Stripes { count: 3, width: 1.0 }), "the painted part of stripes is 1; it must be above 0 and below 1");
-    assert!(found(Pattern::Noise { seed: 1, count: 1001 }).starts_with("the number of clouds of noise is 1001"));
+    assert_eq!(found(Pattern::Spatter { seed: 1, cover: 0.0 }), "the setting \"cover\" of a spatter is 0; it must be above 0 and at most 0.9");
+    assert_eq!(found(Pattern::Stripes { count: 0, width: 0.5 }), "the setting \"count\" of stripes is 0; it must be at least 1 and at most 1000");
+    assert_eq!(found(Pattern::Stripes { count: 3, width: 1.0 }), "the setting \"width\" of stripes is 1; it must be above 0 and below 1");
+    assert!(found(Pattern::Noise { seed: 1, count: 1001 }).starts_with("the setting \"count\" of noise is 1001"));
     for pattern in [
         Pattern::Uniform { drawn: f64::NAN },
         Pattern::Flower { seed: 1, petals: 17 },
@@ -106,7 +106,9 @@ fn impossible_placements_are_refused() {
         assert_eq!(placement.checked(), Ok(placement));
     }
     let error = Placement { size: 5.0, ..default }.checked().expect_err("is too large").to_string();
-    assert_eq!(error, "the size of a placement is 5; it must be at least 0.001 and at most 4");
+    assert_eq!(error, "the setting \"size\" of a placement is 5; it must be at least 0.001 and at most 4");
+    let error = Placement { tiling: [3, 0], ..default }.checked().expect_err("has no rows").to_string();
+    assert_eq!(error, "the setting \"tiling\" of a placement is 0; it must be at least 1 and at most 1000 cells either way");
     for placement in [
         Placement { tiling: [0, 1], ..default },
         Placement { tiling: [1, 1001], ..default },
