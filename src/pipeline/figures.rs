@@ -62,8 +62,11 @@ pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progr
         gpu.adapter().name
     );
     let mut report = Report::new(folder, "Painted materials", &introduction);
-    for (name, material) in materials {
-        let job = Job { name, material, studio: &studio, painter: &painter, progress };
+    for (index, (name, material)) in materials.iter().enumerate() {
+        // Names may be alike, and need not be fit for files or addresses.
+        let plain: String = name.chars().filter(|letter| letter.is_ascii_alphanumeric() || "-_".contains(*letter)).collect();
+        let stem = format!("{}_{plain}", index + 1);
+        let job = Job { name, stem, material, studio: &studio, painter: &painter, progress };
         for (number, title, paints) in WHOLE {
             report.figure(&job.whole(number, title, &paints)?)?;
         }
@@ -78,6 +81,8 @@ pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progr
 /// What the figures of one material are made from.
 struct Job<'a> {
     name: &'a str,
+    /// What the names of its files begin with.
+    stem: String,
     material: &'a Material,
     studio: &'a Studio<'a>,
     painter: &'a Painter<'a>,
@@ -132,7 +137,7 @@ impl Job<'_> {
     }
 
     fn figure(&self, number: &str, title: &str, caption: String, columns: Vec<String>, rows: Vec<Row>) -> Figure {
-        let stem = format!("{}_{}", self.name, number.replace('.', "_"));
+        let stem = format!("{}_{}", self.stem, number.replace('.', "_"));
         Figure { stem, title: format!("{title} (thesis fig. {number}): {}", self.name), caption, columns, rows }
     }
 

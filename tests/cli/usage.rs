@@ -26,7 +26,7 @@ const OUT_OF_RANGE: &[(&[&str], &str)] = &[
     (&["compare", "s", "m", "-o", "c", "--texel", "-1,0"], "expected X,Y"),
     (&["compare", "s", "m", "-o", "c", "--texel", "1,2", "--texel", "3,4"], "cannot be used multiple times"),
     (&["compare", "s", "m", "-o", "c", "--memory", "1KiB"], "expected an amount of memory"),
-    (&["paint"], "unrecognized subcommand 'paint'"),
+    (&["varnish"], "unrecognized subcommand 'varnish'"),
     (&["reconstruct", "m", "--view", "90,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
     (&["reconstruct", "m", "--view", "-1,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
     (&["reconstruct", "m", "--view", "NaN,0", "--light", "0,0", "-o", "a.png"], "expected THETA,PHI"),

@@ -89,20 +89,7 @@ pub(super) fn pattern(value: Value<'_>, images: &mut Images<'_>) -> Outcome<Patt
         "noise" => Pattern::Noise { seed: seed()?, count: table.whole("count", 8)? },
         _ => Pattern::Uniform { drawn: table.number("drawn", 1.0)? },
     };
-    pattern.checked().map_err(|error| table.fault_at(key(error.setting), error))
-}
-
-/// The key of what a pattern or placement calls a setting.
-fn key(setting: &'static str) -> &'static str {
-    match setting {
-        "drawn thickness" => "drawn",
-        "number of petals" => "petals",
-        "covered part" => "cover",
-        "number" | "number of clouds" => "count",
-        "painted part" => "width",
-        "number of columns" | "number of rows" => "tiling",
-        setting => setting,
-    }
+    pattern.checked().map_err(|error| table.fault_at(error.setting, error))
 }
 
 /// Where a pattern is drawn.
@@ -119,5 +106,5 @@ pub(super) fn placement(value: Value<'_>) -> Outcome<Placement> {
     };
     let rotation = table.number("rotation", 0.0)?.to_radians();
     let placement = Placement { tiling, offset, rotation, size: table.number("size", default.size)? };
-    placement.checked().map_err(|error| table.fault_at(key(error.setting), error))
+    placement.checked().map_err(|error| table.fault_at(error.setting, error))
 }
