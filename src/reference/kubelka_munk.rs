@@ -84,12 +84,12 @@ pub fn kubelka_munk(ground: &Map<PaintedTexel>, layers: &[(&Layer, &Map<f64>)]) 
         let covers: Vec<_> = std::iter::once((below.coat, below.coverage))
             .chain(drawn().map(|(layer, drawn)| ([layer.coat().f0(), layer.coat().alpha()], closed(drawn))))
             .collect();
-        let (mut bare, mut coat) = (1.0, [0.0; 2]);
+        let (mut bare, mut coverage, mut coat) = (1.0, 0.0, [0.0; 2]);
         for (surface, cover) in covers.into_iter().rev() {
             (0..2).for_each(|part| coat[part] += bare * cover * surface[part]);
+            coverage += bare * cover;
             bare *= 1.0 - cover;
         }
-        let coverage = 1.0 - bare;
         PaintedTexel {
             reflectance,
             coverage,

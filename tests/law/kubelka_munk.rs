@@ -14,7 +14,7 @@ crate::suite! {
     plain: printed_values_hold_in_f64, films_obey_their_limits, a_divided_film_is_the_film, a_ground_above_white_adds_what_shows_through;
     gpu: printed_values_hold_on_the_gpu, no_coat_leaves_the_ground, an_opaque_coat_hides_the_ground, films_without_absorption_or_scattering,
         a_divided_layer_is_the_layer, more_paint_covers_more, a_white_coat_on_white_stays_white, coverage_is_the_product_of_bare_parts,
-        batches_make_no_difference, layers_add_up_and_bare_texels_stay, the_topmost_surface_shows;
+        batches_make_no_difference, layers_add_up_and_bare_texels_stay, the_topmost_surface_shows, a_breath_of_paint_has_its_own_surface;
 }
 
 /// (s, k, R, T), computed with 30 digits.
@@ -255,5 +255,18 @@ fn the_topmost_surface_shows(gpu: &Gpu) {
         let mixed = |below: f64, above: f64| below + share * (above - below);
         let expected = [mixed(below.coat().f0(), above.coat().f0()), mixed(0.6, 0.2)];
         hold("kubelka_munk: the topmost surface", worst_difference(texel.values()[4..].iter().copied(), expected), 1e-7);
+    }
+}
+
+/// However little is drawn, the surface is that of the layer, not what is left of its rounding.
+fn a_breath_of_paint_has_its_own_surface(gpu: &Gpu) {
+    let layer = Layer { refractive_index: 2.0, roughness: 0.2, ..grey(1.0, 1.0) };
+    let drawn: Vec<_> = (0..40).map(|power| 0.5_f32.powi(power)).collect();
+    for texel in lay(gpu, &vec![Texel::bare([0.5; 3]); drawn.len()], &[(&layer, &drawn)], 1) {
+        assert!(texel.painted[3] >= 0.0 && texel.painted[3] <= 1.0);
+        if texel.painted[3] > 1e-19 {
+            let expected = [layer.coat().f0(), layer.coat().alpha()];
+            hold("kubelka_munk: surface of a breath", worst_difference(texel.values()[4..].iter().copied(), expected), 1e-7);
+        }
     }
 }
