@@ -18,8 +18,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     for (var octave = 0u; octave < OCTAVES; octave++) {
         let share = 1.0 / f32(1u << octave);
         let period = params.lattice << vec2(octave);
-        let cells = vec2<f32>(period) * params.scale / params.edges;
-        sum += share * faded(0.5, noise(place * vec2<f32>(period), period, params.seed + octave), params.texel * max(cells.x, cells.y));
+        // Points of the lattice in a texel.
+        let points = vec2<f32>(period) / params.cell;
+        sum += share * faded(0.5, noise(place * vec2<f32>(period), period, params.seed + octave), max(points.x, points.y));
         whole += share;
     }
     drawn[params.first + texel] = smoothstep(0.2, 0.8, sum / whole);

@@ -160,7 +160,7 @@ impl Pattern {
         }
     }
 
-    /// The shapes that flow together into the pattern; none unless it is a splash. All lie within 0.45 of the
+    /// The shapes that flow together into the pattern; none unless it is a splash. All lie within 0.46 of the
     /// middle.
     #[must_use]
     pub fn shapes(self) -> Vec<Capsule> {

@@ -53,8 +53,11 @@ const LEAST_TEXELS: usize = 64;
 /// Makes the figures of each of `materials`, which go by their names, and writes them with their page into `folder`, which must exist.
 ///
 /// # Errors
-/// [`PipelineError`] if a stage fails or a file cannot be written.
+/// [`PipelineError::Painted`] if a material is painted already, others if a stage fails or a file cannot be written.
 pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progress: &Progress) -> Result<(), PipelineError> {
+    if materials.iter().any(|(_, material)| material.painted.is_some()) {
+        return Err(PipelineError::Painted);
+    }
     let (studio, painter) = (Studio::new(gpu)?, Painter::new(gpu)?);
     let introduction = format!(
         "Painted by overpaint {} on {}. View and light are given as θ from the normal and φ counter-clockwise from the right, in degrees.",

@@ -11,9 +11,6 @@ use crate::{
     stage::{self, PaintStack},
 };
 
-/// Texels of the largest plane that is painted: what an index of the kernels can count, and far more than an adapter holds.
-const MAX_TEXELS: usize = 1 << 28;
-
 /// The stages that paint, on one device.
 #[derive(Debug)]
 pub struct Painter<'g> {
@@ -57,8 +54,11 @@ impl<'g> Painter<'g> {
         let [pieces_right, pieces_down] = recipe.repeat;
         let [width, height] = material.size();
         let texels = [width, height, pieces_right, pieces_down].into_iter().try_fold(1_usize, usize::checked_mul);
-        if texels.is_none_or(|texels| texels == 0 || texels > MAX_TEXELS) {
-            return Err(PipelineError::PlaneTooLarge { size: [width, height], repeat: recipe.repeat, limit: MAX_TEXELS });
+        // Reflectance and coverage are the largest array; asked before the host holds as much of every map.
+        let limit = usize::try_from(self.gpu.max_array_bytes()).unwrap_or(usize::MAX) / size_of::<[f32; 4]>();
+        if texels.is_none_or(|texels| texels == 0 || texels > limit) {
+            let adapter = self.gpu.adapter().name.clone();
+            return Err(PipelineError::PlaneTooLarge { size: [width, height], repeat: recipe.repeat, adapter, limit });
         }
         if let Some(before) = material.painted.as_ref().map(|painted| painted.method).filter(|&before| before != method) {
             return Err(PipelineError::MethodsDiffer { before, asked: method });

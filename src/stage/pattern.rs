@@ -112,7 +112,7 @@ impl Pattern {
 }
 
 /// The parameters that tell where a pattern is drawn.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 2 repetitions: sizes end at 4, texels at 0.25")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 3 repetitions: sizes end at 4, texels at 0.25")]
 fn placed(placement: Placement, size: [u32; 2]) -> Params {
     let (cell, edges) = (placement.cell(size), placement.edges(size));
     // A texel that is a quarter of the pattern has nothing left to average.

@@ -54,6 +54,7 @@ const OUT_OF_RANGE: &[(&[&str], &str)] = &[
         "expected a number of 1 or more",
     ),
     (&["render", "m", "--paint", "viridian", "--thickness", "1", "--roughness", "0", "-o", "a.png"], "above 0, up to 1"),
+    (&["render", "m", "--paint", "viridian", "--thickness", "1", "--pattern", "brush", "--width", "0.9", "-o", "a.png"], "at least 0.01 and at most 0.5"),
     (&["render", "m", "--paint", "viridian", "--thickness", "1e30", "-o", "a.png"], "at most 1e6"),
     (&["render", "m", "--paint", "viridian", "--thickness", "1", "--pattern", "dots", "-o", "a.png"], "invalid value 'dots'"),
     (&["render", "m", "--paint", "no such paint", "--thickness", "1", "-o", "a.png"], "no paint is called \"no such paint\""),

@@ -79,6 +79,10 @@ impl Paints {
         if let Some(own) = self.own.get(&pigments::plain(name)) {
             return Some(format!("a file of paints has \"{}\" already", own.paint.name));
         }
+        // A set and a name without the slash between them would be found before the library's paint.
+        if let Some(pigment) = pigments::all().find(|pigment| pigments::plain(&pigment.full_name()) == pigments::plain(name)) {
+            return Some(format!("that is \"{}\" of the library", pigment.full_name()));
+        }
         match pigments::find(name) {
             Ok(pigment) => Some(format!("that is \"{}\" of the library", pigment.full_name())),
             Err(PigmentError::Ambiguous { choices, .. }) => Some(format!("that may be {choices} of the library")),

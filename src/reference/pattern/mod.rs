@@ -111,10 +111,11 @@ impl Plane {
         let (mut sum, mut whole) = (0.0, 0.0);
         for octave in 0..6 {
             let period = lattice.map(|points| points << octave);
-            let cells = [0, 1].map(|axis| f64::from(period[axis]) * self.placement.size / edges[axis]);
+            let cell = self.placement.cell(self.size);
+            let points = [0, 1].map(|axis| f64::from(period[axis]) / cell[axis]);
             let at = [0, 1].map(|axis| (place[axis] / edges[axis] + 0.5) * f64::from(period[axis]));
             let value = tiled_noise(at, period, marks.seed.wrapping_add(octave));
-            sum += marks::faded(0.5, value, marks.texel * cells[0].max(cells[1])) * 0.5_f64.powi(octave.cast_signed());
+            sum += marks::faded(0.5, value, points[0].max(points[1])) * 0.5_f64.powi(octave.cast_signed());
             whole += 0.5_f64.powi(octave.cast_signed());
         }
         marks::smoothstep(0.2, 0.8, sum / whole)
