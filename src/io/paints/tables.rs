@@ -8,10 +8,7 @@ use crate::{
         RecipeFault,
         recipe::{Outcome, Placed, Table, Value, reflectances, shortened},
     },
-    model::{
-        Paint, PaintError,
-        pigments::{self, PigmentError},
-    },
+    model::{Paint, PaintError, pigments},
 };
 
 /// The most own paints of a file.
@@ -79,15 +76,8 @@ impl Paints {
         if let Some(own) = self.own.get(&pigments::plain(name)) {
             return Some(format!("a file of paints has \"{}\" already", own.paint.name));
         }
-        // A set and a name without the slash between them would be found before the library's paint.
-        if let Some(pigment) = pigments::all().find(|pigment| pigments::plain(&pigment.full_name()) == pigments::plain(name)) {
-            return Some(format!("that is \"{}\" of the library", pigment.full_name()));
-        }
-        match pigments::find(name) {
-            Ok(pigment) => Some(format!("that is \"{}\" of the library", pigment.full_name())),
-            Err(PigmentError::Ambiguous { choices, .. }) => Some(format!("that may be {choices} of the library")),
-            Err(PigmentError::Unknown { .. }) => None,
-        }
+        let taken: Vec<_> = pigments::called(name).into_iter().map(|pigment| format!("\"{}\"", pigment.full_name())).collect();
+        (!taken.is_empty()).then(|| format!("that is {} of the library", taken.join(" or ")))
     }
 
     /// Names and amounts of a mixture of paints that are there or, by the forms of their names that are compared, in `names`.

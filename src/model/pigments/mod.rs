@@ -150,6 +150,13 @@ pub fn all() -> impl Iterator<Item = &'static Pigment> {
     PigmentSet::ALL.into_iter().flat_map(PigmentSet::pigments)
 }
 
+/// Every pigment called `name`, with its set before a slash or without; case, spaces and punctuation do not matter.
+#[must_use]
+pub fn called(name: &str) -> Vec<&'static Pigment> {
+    let wanted = plain(name);
+    all().filter(|pigment| plain(&pigment.full_name()) == wanted || (!name.contains('/') && plain(pigment.name) == wanted)).collect()
+}
+
 /// The pigment called `name`, with its set before a slash or without; case, spaces and punctuation do not matter.
 ///
 /// # Errors
@@ -163,11 +170,7 @@ pub fn find(name: &str) -> Result<&'static Pigment, PigmentError> {
 /// # Errors
 /// As [`find`].
 pub fn find_beside(name: &str, others: &[&str]) -> Result<&'static Pigment, PigmentError> {
-    let wanted = plain(name);
-    let matching: Vec<_> = match name.split_once('/') {
-        Some(_) => all().filter(|pigment| plain(&pigment.full_name()) == wanted).collect(),
-        None => all().filter(|pigment| plain(pigment.name) == wanted).collect(),
-    };
+    let matching = called(name);
     match matching[..] {
         [pigment] => Ok(pigment),
         [] => {
@@ -175,7 +178,7 @@ pub fn find_beside(name: &str, others: &[&str]) -> Result<&'static Pigment, Pigm
             Err(PigmentError::Unknown { name: shortened(name), near: quoted(nearest(name, names)) })
         }
         _ => {
-            let choices = quoted(matching.iter().map(|pigment| pigment.full_name()));
+            let choices = quoted(matching.into_iter().map(Pigment::full_name));
             Err(PigmentError::Ambiguous { name: shortened(name), choices })
         }
     }
