@@ -15,8 +15,11 @@ use crate::{
 /// Name of the page in the folder of the figures.
 pub const FIGURES: &str = "figures.html";
 
+/// Three paints, each at two thicknesses.
+type Paints = [(&'static str, [f64; 2]); 3];
+
 /// Whole samples under one paint: figure of the thesis, title, and the paints with their thicknesses.
-const WHOLE: [(&str, &str, [(&str, [f64; 2]); 3]); 2] = [
+const WHOLE: [(&str, &str, Paints); 2] = [
     (
         "4.3",
         "Watercolour on the whole sample",

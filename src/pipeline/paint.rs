@@ -75,7 +75,7 @@ impl<'g> Painter<'g> {
         let (size, texels) = ([stage::count(columns), stage::count(rows)], columns * rows);
         let heights = ground.painted.as_ref().map_or(&ground.height, |painted| &painted.height);
         let heights = gpu.upload("height", heights.values())?;
-        let (painted, coats) = upload_paint(gpu, ground)?;
+        let (painted, coats) = (upload_painted(gpu, ground)?, upload_coats(gpu, ground)?);
 
         // As many layers at a time as one binding holds drawn thicknesses of.
         let layer_bytes = (texels * size_of::<f32>()) as u64;
@@ -137,19 +137,21 @@ impl<'g> Painter<'g> {
     }
 }
 
-/// Reflectance and coverage of the paint on `material`, and its surfaces; where there is none the bare material's, and nothing.
-pub(super) fn upload_paint(gpu: &Gpu, material: &Material) -> Result<(Buffer<[f32; 4]>, Buffer<[f32; 2]>), GpuError> {
-    let with = |reflectance: &Map<[f32; 3]>, coverage: &mut dyn Iterator<Item = f32>| {
-        let texels: Vec<_> = reflectance.values().iter().zip(coverage).map(|(&[r, g, b], coverage)| [r, g, b, coverage]).collect();
-        gpu.upload("painted", &texels)
+/// Reflectance of the paint on `material`, and coverage; where there is none the bare material's, and 0.
+pub(super) fn upload_painted(gpu: &Gpu, material: &Material) -> Result<Buffer<[f32; 4]>, GpuError> {
+    let texels: Vec<_> = match &material.painted {
+        None => material.svbrdf.diffuse.values().iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect(),
+        Some(Painted { reflectance, coverage, .. }) => {
+            reflectance.values().iter().zip(coverage.values()).map(|(&[r, g, b], &coverage)| [r, g, b, coverage]).collect()
+        }
     };
+    gpu.upload("painted", &texels)
+}
+
+/// Surfaces of the paint on `material`; 0 where there is none.
+pub(super) fn upload_coats(gpu: &Gpu, material: &Material) -> Result<Buffer<[f32; 2]>, GpuError> {
     match &material.painted {
-        None => {
-            let diffuse = &material.svbrdf.diffuse;
-            Ok((with(diffuse, &mut std::iter::repeat(0.0))?, gpu.zeros("coats", diffuse.values().len())?))
-        }
-        Some(Painted { reflectance, coverage, coat, .. }) => {
-            Ok((with(reflectance, &mut coverage.values().iter().copied())?, gpu.upload("coats", coat.values())?))
-        }
+        None => gpu.zeros("coats", material.svbrdf.diffuse.values().len()),
+        Some(painted) => gpu.upload("coats", painted.coat.values()),
     }
 }

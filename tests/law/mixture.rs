@@ -57,10 +57,10 @@ fn a_tint_gets_lighter() {
         let mut darker = [0.0; 3];
         for white in [1e-3, 0.1, 0.5, 1.0, 2.0, 10.0, 1e3] {
             let tint = Paint::mixture("tint", &[(1.0, pigment.into()), (white, paint("titanium white"))]).expect("is possible");
-            for channel in 0..3 {
-                let reflectance = opaque_reflectance(tint.s[channel], tint.k[channel]);
-                assert!(reflectance >= darker[channel] - 1e-12, "{}", pigment.name);
-                darker[channel] = reflectance;
+            for ((darker, s), k) in darker.iter_mut().zip(tint.s).zip(tint.k) {
+                let reflectance = opaque_reflectance(s, k);
+                assert!(reflectance >= *darker - 1e-12, "{}", pigment.name);
+                *darker = reflectance;
             }
         }
     }
