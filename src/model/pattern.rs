@@ -1,11 +1,11 @@
 //! Patterns: how thick a layer is drawn, from 0 (bare) to 1.
 //!
 //! A pattern has coordinates of its own, in which it is drawn at any resolution: the origin in its middle, x right, y up, and 1 the
-//! shorter edge of the cell that it fills at size 1 ([`Placement`]).
+//! shorter edge of the cell that it fills at size 1 ([`Placement`](super::Placement)).
 
 use std::f64::consts::TAU;
 
-/// What is drawn. Lengths are in the pattern's own coordinates, in which the shorter edge of its cell is 1 ([`Placement`]).
+/// What is drawn. Lengths are in the pattern's own coordinates, in which the shorter edge of its cell is 1 ([`Placement`](super::Placement)).
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Pattern {
