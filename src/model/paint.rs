@@ -1,6 +1,6 @@
 //! Paints and layers: what is laid on a material.
 
-use super::{Coat, Film, Pattern, Placement, kubelka_munk::film_of, pigments::Pigment};
+use super::{Coat, Film, Pattern, PatternError, Placement, kubelka_munk::film_of, pigments::Pigment};
 
 /// A paint by its Kubelka-Munk coefficients per unit of thickness, in R, G, B.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -167,6 +167,9 @@ pub enum PaintError {
         /// Largest value allowed.
         high: f64,
     },
+    /// A setting of a layer's pattern or placement lies outside its range.
+    #[error(transparent)]
+    Pattern(#[from] PatternError),
 }
 
 /// A number for a message: to six decimals, large ones by their exponent.
@@ -209,6 +212,8 @@ impl Layer {
     /// [`PaintError`] for the first that is not.
     pub fn checked(mut self) -> Result<Self, PaintError> {
         self.paint = self.paint.checked()?;
+        self.pattern.checked()?;
+        self.placement.checked()?;
         let settings = [
             ("thickness", self.thickness, 0.0, MAX_COEFFICIENT),
             ("relief", self.relief, 0.0, MAX_COEFFICIENT),

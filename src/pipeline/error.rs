@@ -4,7 +4,7 @@ use crate::{
     data::ShapeError,
     gpu::GpuError,
     io::IoError,
-    model::{PaintError, PaintMethod, PatternError, SettingsError, SynthError, pigments::PigmentError},
+    model::{PaintError, PaintMethod, SettingsError, SynthError, pigments::PigmentError},
     stage::StageError,
 };
 
@@ -24,9 +24,6 @@ pub enum PipelineError {
     /// A name that is no paint's.
     #[error(transparent)]
     Pigment(#[from] PigmentError),
-    /// A pattern that no stage can work with.
-    #[error(transparent)]
-    Pattern(#[from] PatternError),
     /// A synthetic material that cannot be rendered.
     #[error(transparent)]
     Synth(#[from] SynthError),

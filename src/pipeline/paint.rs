@@ -41,15 +41,13 @@ impl<'g> Painter<'g> {
     /// `material`, as many pieces of it as the recipe says, under the layers of `recipe`; paint that is already there is painted over.
     ///
     /// # Errors
-    /// [`PipelineError::Paint`] or [`PipelineError::Pattern`] if a setting of a layer is out of range, [`PipelineError::NoSuchImage`] if a
+    /// [`PipelineError::Paint`] if a setting of a layer is out of range, [`PipelineError::NoSuchImage`] if a
     /// pattern names an image that the recipe does not have, [`PipelineError::PlaneTooLarge`] if there are too many pieces,
     /// [`PipelineError::MethodsDiffer`] if the paint on the material was laid in the other way, [`PipelineError::Gpu`] if a map does not fit
     /// the adapter.
     pub fn paint(&self, material: &Material, recipe: &Recipe, method: PaintMethod, progress: &Progress) -> Result<Material, PipelineError> {
         for layer in &recipe.layers {
             layer.clone().checked()?;
-            layer.pattern.checked()?;
-            layer.placement.checked()?;
         }
         let [pieces_right, pieces_down] = recipe.repeat;
         let [width, height] = material.size();

@@ -54,6 +54,8 @@ fn impossible_layers_are_refused() {
     assert!(with(|layer| layer.relief = -0.5).starts_with("relief"));
     assert!(with(|layer| layer.refractive_index = 0.9).starts_with("refractive index"));
     assert!(with(|layer| layer.roughness = 0.0).starts_with("roughness"));
+    assert!(with(|layer| layer.placement.size = 0.0).starts_with("the setting \"size\" of a placement is 0"));
+    assert!(with(|layer| layer.pattern = Pattern::Uniform { drawn: 2.0 }).starts_with("the setting \"drawn\" of a uniform pattern is 2"));
 }
 
 fn impossible_patterns_are_refused() {
