@@ -20,6 +20,7 @@ crate::suites! {
     lpca,
     lpca_edges,
     masked,
+    mesh,
     microfacet,
     normals,
     paint,

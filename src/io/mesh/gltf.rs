@@ -21,6 +21,9 @@ use crate::{data::mesh::MAX_VERTICES, io::recipe::shortened};
 /// Extensions without which positions or triangles mean something else.
 const UNREAD: [&str; 4] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization"];
 
+/// Characters of what the library says that an error keeps: it may list every fault there is.
+const MESSAGE: usize = 200;
+
 /// The parts of a file, one a primitive of each node.
 pub(super) fn parts(bytes: &[u8], folder: &Path, warnings: &mut Vec<String>) -> Result<Vec<Part>, MeshFault> {
     let (document, blob) = document(bytes)?;
@@ -50,19 +53,25 @@ pub(super) fn parts(bytes: &[u8], folder: &Path, warnings: &mut Vec<String>) -> 
 
 /// The checked document and the binary chunk.
 fn document(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), MeshFault> {
-    let damaged = |error: gltf::Error| MeshFault::Damaged { message: shortened(&error.to_string()) };
+    let damaged = |message: &str| MeshFault::Damaged { message: message.chars().take(MESSAGE).collect() };
+    let refused = |error: gltf::Error| damaged(&error.to_string());
     // The crate subtracts the header's 12 bytes from the length it declares.
     if bytes.starts_with(b"glTF") && bytes.get(8..).and_then(<[u8]>::first_chunk).is_none_or(|length| u32::from_le_bytes(*length) < 12) {
-        return Err(MeshFault::Damaged { message: "the header of a .glb is cut off".to_owned() });
+        return Err(damaged("the header of a .glb is cut off"));
     }
-    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(damaged)?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(refused)?;
     let mut root = document.into_json();
     if let Some(found) = root.extensions_required.iter().find(|extension| UNREAD.contains(&extension.as_str())) {
         return Err(MeshFault::Unsupported { found: format!("the extension {found}") });
     }
+    // The crate's check of positions reads their accessor before it has checked that there is one.
+    let mut accessors = root.meshes.iter().flat_map(|mesh| &mesh.primitives).flat_map(|primitive| primitive.attributes.values());
+    if let Some(index) = accessors.find(|index| root.get(**index).is_none()) {
+        return Err(damaged(&format!("a mesh names accessor {}, but there are {}", index.value(), root.accessors.len())));
+    }
     // The others are of materials, lights and the like.
     root.extensions_required.clear();
-    Ok((Document::from_json(root).map_err(damaged)?, blob))
+    Ok((Document::from_json(root).map_err(refused)?, blob))
 }
 
 /// Nodes of the scene and their transforms to the world.
