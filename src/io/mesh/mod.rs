@@ -12,7 +12,7 @@
 //! corners run clockwise, seen from where their normals point, are turned. Each of these, but for the tangents, is said in a warning.
 //!
 //! Texture coordinates: v runs up in an OBJ, as here; in a glTF it runs down, and 1 - v is taken. Tangents of a glTF are for the image as it
-//! is seen, y up, as those here are, and are kept.
+//! is seen, y up, as those here are, and are kept where all vertices have them.
 
 mod complete;
 mod error;
