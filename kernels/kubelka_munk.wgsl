@@ -86,7 +86,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         height += layer.relief * thickness;
         // Of what is covered, the share in which this layer is the topmost.
         let covering = smoothstep(0.0, params.closed, thickness);
-        coverage = 1.0 - (1.0 - coverage) * (1.0 - covering);
+        coverage += covering * (1.0 - coverage);
         coat = mix(coat, layer.coat, covering / max(coverage, 1e-20));
     }
     coats[texel] = coat;

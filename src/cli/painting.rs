@@ -89,6 +89,7 @@ impl PaintingArguments {
         let placement = Placement { rotation: self.angle.to_radians(), ..Placement::default() };
         let Self { relief, refractive_index, roughness, .. } = *self;
         let layer = Layer { paint, pattern, placement, thickness, relief, refractive_index, roughness };
+        layer.pattern.checked().map_err(|error| out_of_range(&error))?;
         Ok(Some(layer.checked().map_err(|error| out_of_range(&error))?))
     }
 }

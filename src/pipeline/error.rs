@@ -81,7 +81,7 @@ pub enum PipelineError {
     },
     /// A plane that no adapter paints.
     #[error(
-        "{} x {} pieces of {} x {} texels cannot be painted: a plane has at least 1 and at most {limit} texels; repeat the material less often",
+        "{} x {} pieces of {} x {} texels cannot be painted: a plane has at least 1 and on {adapter} at most {limit} texels; repeat the material less often",
         repeat[0], repeat[1], size[0], size[1]
     )]
     PlaneTooLarge {
@@ -89,11 +89,13 @@ pub enum PipelineError {
         size: [usize; 2],
         /// Pieces to the right and downwards.
         repeat: [usize; 2],
+        /// The adapter.
+        adapter: String,
         /// Most texels of a plane.
         limit: usize,
     },
     /// A painted material where a bare one is needed.
-    #[error("the material is painted, and its source is not; compare the bare material")]
+    #[error("the material is painted; take the bare material that it was made from")]
     Painted,
     /// Paint over paint of another kind.
     #[error("the material is already painted by {before}, which cannot go on by {asked}; paint the bare material")]

@@ -15,8 +15,11 @@ use crate::{
 /// Name of the page in the folder of the figures.
 pub const FIGURES: &str = "figures.html";
 
+/// Three paints, each at two thicknesses.
+type Paints = [(&'static str, [f64; 2]); 3];
+
 /// Whole samples under one paint: figure of the thesis, title, and the paints with their thicknesses.
-const WHOLE: [(&str, &str, [(&str, [f64; 2]); 3]); 2] = [
+const WHOLE: [(&str, &str, Paints); 2] = [
     (
         "4.3",
         "Watercolour on the whole sample",
@@ -53,8 +56,11 @@ const LEAST_TEXELS: usize = 64;
 /// Makes the figures of each of `materials`, which go by their names, and writes them with their page into `folder`, which must exist.
 ///
 /// # Errors
-/// [`PipelineError`] if a stage fails or a file cannot be written.
+/// [`PipelineError::Painted`] if a material is painted already, others if a stage fails or a file cannot be written.
 pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progress: &Progress) -> Result<(), PipelineError> {
+    if materials.iter().any(|(_, material)| material.painted.is_some()) {
+        return Err(PipelineError::Painted);
+    }
     let (studio, painter) = (Studio::new(gpu)?, Painter::new(gpu)?);
     let introduction = format!(
         "Painted by overpaint {} on {}. View and light are given as θ from the normal and φ counter-clockwise from the right, in degrees.",
@@ -62,8 +68,11 @@ pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progr
         gpu.adapter().name
     );
     let mut report = Report::new(folder, "Painted materials", &introduction);
-    for (name, material) in materials {
-        let job = Job { name, material, studio: &studio, painter: &painter, progress };
+    for (index, (name, material)) in materials.iter().enumerate() {
+        // Names may be alike, and need not be fit for files or addresses.
+        let plain: String = name.chars().filter(|letter| letter.is_ascii_alphanumeric() || "-_".contains(*letter)).collect();
+        let stem = format!("{}_{plain}", index + 1);
+        let job = Job { name, stem, material, studio: &studio, painter: &painter, progress };
         for (number, title, paints) in WHOLE {
             report.figure(&job.whole(number, title, &paints)?)?;
         }
@@ -78,6 +87,8 @@ pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progr
 /// What the figures of one material are made from.
 struct Job<'a> {
     name: &'a str,
+    /// What the names of its files begin with.
+    stem: String,
     material: &'a Material,
     studio: &'a Studio<'a>,
     painter: &'a Painter<'a>,
@@ -132,7 +143,7 @@ impl Job<'_> {
     }
 
     fn figure(&self, number: &str, title: &str, caption: String, columns: Vec<String>, rows: Vec<Row>) -> Figure {
-        let stem = format!("{}_{}", self.name, number.replace('.', "_"));
+        let stem = format!("{}_{}", self.stem, number.replace('.', "_"));
         Figure { stem, title: format!("{title} (thesis fig. {number}): {}", self.name), caption, columns, rows }
     }
 

@@ -11,9 +11,6 @@ use crate::{
     stage::{self, PaintStack},
 };
 
-/// Texels of the largest plane that is painted: what an index of the kernels can count, and far more than an adapter holds.
-const MAX_TEXELS: usize = 1 << 28;
-
 /// The stages that paint, on one device.
 #[derive(Debug)]
 pub struct Painter<'g> {
@@ -57,8 +54,11 @@ impl<'g> Painter<'g> {
         let [pieces_right, pieces_down] = recipe.repeat;
         let [width, height] = material.size();
         let texels = [width, height, pieces_right, pieces_down].into_iter().try_fold(1_usize, usize::checked_mul);
-        if texels.is_none_or(|texels| texels == 0 || texels > MAX_TEXELS) {
-            return Err(PipelineError::PlaneTooLarge { size: [width, height], repeat: recipe.repeat, limit: MAX_TEXELS });
+        // Reflectance and coverage are the largest array; asked before the host holds as much of every map.
+        let limit = usize::try_from(self.gpu.max_array_bytes()).unwrap_or(usize::MAX) / size_of::<[f32; 4]>();
+        if texels.is_none_or(|texels| texels == 0 || texels > limit) {
+            let adapter = self.gpu.adapter().name.clone();
+            return Err(PipelineError::PlaneTooLarge { size: [width, height], repeat: recipe.repeat, adapter, limit });
         }
         if let Some(before) = material.painted.as_ref().map(|painted| painted.method).filter(|&before| before != method) {
             return Err(PipelineError::MethodsDiffer { before, asked: method });
@@ -75,7 +75,7 @@ impl<'g> Painter<'g> {
         let (size, texels) = ([stage::count(columns), stage::count(rows)], columns * rows);
         let heights = ground.painted.as_ref().map_or(&ground.height, |painted| &painted.height);
         let heights = gpu.upload("height", heights.values())?;
-        let (painted, coats) = upload_paint(gpu, ground)?;
+        let (painted, coats) = (upload_painted(gpu, ground)?, upload_coats(gpu, ground)?);
 
         // As many layers at a time as one binding holds drawn thicknesses of.
         let layer_bytes = (texels * size_of::<f32>()) as u64;
@@ -137,19 +137,21 @@ impl<'g> Painter<'g> {
     }
 }
 
-/// Reflectance and coverage of the paint on `material`, and its surfaces; where there is none the bare material's, and nothing.
-pub(super) fn upload_paint(gpu: &Gpu, material: &Material) -> Result<(Buffer<[f32; 4]>, Buffer<[f32; 2]>), GpuError> {
-    let with = |reflectance: &Map<[f32; 3]>, coverage: &mut dyn Iterator<Item = f32>| {
-        let texels: Vec<_> = reflectance.values().iter().zip(coverage).map(|(&[r, g, b], coverage)| [r, g, b, coverage]).collect();
-        gpu.upload("painted", &texels)
+/// Reflectance of the paint on `material`, and coverage; where there is none the bare material's, and 0.
+pub(super) fn upload_painted(gpu: &Gpu, material: &Material) -> Result<Buffer<[f32; 4]>, GpuError> {
+    let texels: Vec<_> = match &material.painted {
+        None => material.svbrdf.diffuse.values().iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect(),
+        Some(Painted { reflectance, coverage, .. }) => {
+            reflectance.values().iter().zip(coverage.values()).map(|(&[r, g, b], &coverage)| [r, g, b, coverage]).collect()
+        }
     };
+    gpu.upload("painted", &texels)
+}
+
+/// Surfaces of the paint on `material`; 0 where there is none.
+pub(super) fn upload_coats(gpu: &Gpu, material: &Material) -> Result<Buffer<[f32; 2]>, GpuError> {
     match &material.painted {
-        None => {
-            let diffuse = &material.svbrdf.diffuse;
-            Ok((with(diffuse, &mut std::iter::repeat(0.0))?, gpu.zeros("coats", diffuse.values().len())?))
-        }
-        Some(Painted { reflectance, coverage, coat, .. }) => {
-            Ok((with(reflectance, &mut coverage.values().iter().copied())?, gpu.upload("coats", coat.values())?))
-        }
+        None => gpu.zeros("coats", material.svbrdf.diffuse.values().len()),
+        Some(painted) => gpu.upload("coats", painted.coat.values()),
     }
 }

@@ -1,6 +1,10 @@
 //! Pictures of a material, bare or painted.
 
-use super::{PipelineError, Progress, paint::upload_paint, tiles::run};
+use super::{
+    PipelineError, Progress,
+    paint::{upload_coats, upload_painted},
+    tiles::run,
+};
 use crate::{
     data::{Direction, Map, Material, PlaneView},
     gpu::{Buffer, Gpu, GpuError, Recorder},
@@ -77,7 +81,6 @@ impl<'g> Studio<'g> {
         let heights = gpu.upload("height", height.values())?;
         let normals = run(gpu, progress, "normals", [texels, 1], |recorder| self.normals.record(recorder, &heights, size, boundary))?;
         let range = height.values().iter().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)]);
-        let (painted, coats) = upload_paint(gpu, material)?;
         let lobes = &material.svbrdf.lobes;
         let specular: Vec<_> = lobes.iter().flat_map(|lobe| lobe.specular.values()).map(|&[r, g, b]| [r, g, b, 0.0]).collect();
         let parameters: Vec<_> = lobes.iter().flat_map(|lobe| lobe.parameters.values()).copied().collect();
@@ -88,8 +91,8 @@ impl<'g> Studio<'g> {
             diffuse: upload_rgb(gpu, "diffuse", &material.svbrdf.diffuse)?,
             specular: gpu.upload("specular", &specular)?,
             lobes: gpu.upload("lobes", &parameters)?,
-            painted,
-            coats,
+            painted: upload_painted(gpu, material)?,
+            coats: upload_coats(gpu, material)?,
             method: material.painted.as_ref().map(|painted| painted.method).unwrap_or_default(),
         })
     }

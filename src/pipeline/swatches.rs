@@ -82,7 +82,7 @@ fn ground(column: usize, row: usize) -> f32 {
     let black = match column / BAND {
         0 => true,
         1 => false,
-        _ => (column % BAND / CHECK + row / CHECK) % 2 == 0,
+        _ => (column % BAND / CHECK + row / CHECK).is_multiple_of(2),
     };
     if black { BLACK } else { WHITE }
 }

@@ -8,13 +8,13 @@ use crate::{data::Map, model::Layer};
 pub fn alpha_blend(ground: &Map<PaintedTexel>, layers: &[(&Layer, &Map<f64>)]) -> Map<PaintedTexel> {
     Map::from_fn(ground.width(), ground.height(), |column, row| {
         let below = ground[(column, row)];
-        let (mut bare, mut shown) = (1.0, [0.0; 3]);
+        let (mut bare, mut coverage, mut shown) = (1.0, 0.0, [0.0; 3]);
         let of_layers = layers.iter().rev().map(|(layer, drawn)| (layer.colour(), drawn[(column, row)]));
         for (colour, alpha) in of_layers.chain([(below.reflectance, below.coverage)]) {
             (0..3).for_each(|channel| shown[channel] += bare * alpha * colour[channel]);
+            coverage += bare * alpha;
             bare *= 1.0 - alpha;
         }
-        let coverage = 1.0 - bare;
         let reflectance = if coverage > 0.0 { shown.map(|channel| channel / coverage) } else { below.reflectance };
         PaintedTexel { reflectance, coverage, ..below }
     })

@@ -1,6 +1,6 @@
 //! Twin of `kubelka_munk`: the hyperbolic functions as printed, in a = (S + K)/S and b = √(a² − 1), where they can be
-//! evaluated; films too thick for them are halved and stacked. The stack is made without a ground, seen from above and from below, and
-//! laid on it in one formula.
+//! evaluated; films too thick for them are halved and stacked. (To make the stack first, without a ground, and to lay it on the ground in one
+//! formula would be another way, but 1 − Rρ of a white stack on white has no digits left.)
 
 use crate::{data::Map, model::Layer};
 
@@ -41,59 +41,55 @@ pub struct PaintedTexel {
     pub height: f64,
 }
 
-/// A stack of films in one channel: reflectance from above and from below, transmittance.
-#[derive(Clone, Copy)]
-struct Stack {
-    above: f64,
-    below: f64,
-    transmittance: f64,
+/// 1 − R of a film, as a sum of positive terms: (c − sinh(bS))/c with c = a·sinh(bS) + b·cosh(bS).
+fn complement(scattering: f64, absorption: f64) -> f64 {
+    let (s, k) = (scattering, absorption);
+    if s == 0.0 {
+        return 1.0;
+    }
+    let excess = k / s;
+    let b = (excess * (excess + 2.0)).sqrt();
+    if b == 0.0 {
+        return 1.0 / (1.0 + s);
+    }
+    // coth(bS) is 1 long before the hyperbolic functions overflow.
+    let coth = if b * s > 20.0 { 1.0 } else { 1.0 / (b * s).tanh() };
+    (excess + b * coth) / (1.0 + excess + b * coth)
 }
 
-impl Stack {
-    /// A film laid on top (Kubelka 1948: two sheets).
-    fn under(self, [r, t]: [f64; 2]) -> Self {
-        let series = 1.0 / (1.0 - r * self.above);
-        Self {
-            above: r + t * t * self.above * series,
-            below: self.below + self.transmittance * self.transmittance * r * series,
-            transmittance: t * self.transmittance * series,
-        }
-    }
-
-    /// Reflectance over `ground` (thesis eq. 3.9). What a ground has above 1 is seen through the stack once.
-    fn over(self, ground: f64) -> f64 {
-        let white = ground.min(1.0);
-        let through = self.transmittance * self.transmittance;
-        // At R = 1 from below nothing passes and the quotient is 0/0.
-        let repeated = if self.below < 1.0 { through * white / (1.0 - self.below * white) } else { 0.0 };
-        self.above + repeated + through * (ground - white)
-    }
-}
-
-/// `ground` under `layers`, from the bottom up, each with its drawn thickness: the stack by itself first, then on the ground.
+/// `ground` under `layers`, from the bottom up, each with its drawn thickness (thesis eqs. 3.8, 3.9). What a ground has above 1 is seen
+/// through the whole stack once.
 #[must_use]
 pub fn kubelka_munk(ground: &Map<PaintedTexel>, layers: &[(&Layer, &Map<f64>)]) -> Map<PaintedTexel> {
     Map::from_fn(ground.width(), ground.height(), |column, row| {
         let below = ground[(column, row)];
         let drawn = || layers.iter().map(|(layer, drawn)| (*layer, drawn[(column, row)]));
         let reflectance = std::array::from_fn(|channel| {
-            let nothing = Stack { above: 0.0, below: 0.0, transmittance: 1.0 };
-            let stack = drawn().fold(nothing, |stack, (layer, drawn)| {
+            // Over the ground, as far as it is no more than white, and over black; and what passes through.
+            let white = below.reflectance[channel].min(1.0);
+            let mut stack = [white, 0.0];
+            let mut through = 1.0;
+            for (layer, drawn) in drawn() {
                 let d = layer.thickness * drawn;
-                stack.under(film(layer.paint.s[channel] * d, layer.paint.k[channel] * d))
-            });
-            stack.over(below.reflectance[channel])
+                let (s, k) = (layer.paint.s[channel] * d, layer.paint.k[channel] * d);
+                let ([r, t], lost) = (film(s, k), complement(s, k));
+                // 1 - R rho, of which both are parts that do not cancel.
+                let between = |rho: f64| lost + r * (1.0 - rho);
+                through *= t / between(stack[1]);
+                stack = stack.map(|rho| r + t * t * rho / between(rho));
+            }
+            stack[0] + through * through * (below.reflectance[channel] - white)
         });
         // What each surface shows of itself from above: its own cover, less what those above cover.
         let covers: Vec<_> = std::iter::once((below.coat, below.coverage))
             .chain(drawn().map(|(layer, drawn)| ([layer.coat().f0(), layer.coat().alpha()], closed(drawn))))
             .collect();
-        let (mut bare, mut coat) = (1.0, [0.0; 2]);
+        let (mut bare, mut coverage, mut coat) = (1.0, 0.0, [0.0; 2]);
         for (surface, cover) in covers.into_iter().rev() {
             (0..2).for_each(|part| coat[part] += bare * cover * surface[part]);
+            coverage += bare * cover;
             bare *= 1.0 - cover;
         }
-        let coverage = 1.0 - bare;
         PaintedTexel {
             reflectance,
             coverage,

@@ -26,7 +26,7 @@ const OUT_OF_RANGE: &[(&[&str], &str)] = &[
     (&["compare", "s", "m", "-o", "c", "--texel", "-1,0"], "expected X,Y"),
     (&["compare", "s", "m", "-o", "c", "--texel", "1,2", "--texel", "3,4"], "cannot be used multiple times"),
     (&["compare", "s", "m", "-o", "c", "--memory", "1KiB"], "expected an amount of memory"),
-    (&["paint"], "unrecognized subcommand 'paint'"),
+    (&["varnish"], "unrecognized subcommand 'varnish'"),
     (&["reconstruct", "m", "--view", "90,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
     (&["reconstruct", "m", "--view", "-1,0", "--light", "0,0", "-o", "a.png"], "THETA must be from 0 to below 90"),
     (&["reconstruct", "m", "--view", "NaN,0", "--light", "0,0", "-o", "a.png"], "expected THETA,PHI"),
@@ -54,6 +54,7 @@ const OUT_OF_RANGE: &[(&[&str], &str)] = &[
         "expected a number of 1 or more",
     ),
     (&["render", "m", "--paint", "viridian", "--thickness", "1", "--roughness", "0", "-o", "a.png"], "above 0, up to 1"),
+    (&["render", "m", "--paint", "viridian", "--thickness", "1", "--pattern", "brush", "--width", "0.9", "-o", "a.png"], "at least 0.01 and at most 0.5"),
     (&["render", "m", "--paint", "viridian", "--thickness", "1e30", "-o", "a.png"], "at most 1e6"),
     (&["render", "m", "--paint", "viridian", "--thickness", "1", "--pattern", "dots", "-o", "a.png"], "invalid value 'dots'"),
     (&["render", "m", "--paint", "no such paint", "--thickness", "1", "-o", "a.png"], "no paint is called \"no such paint\""),
@@ -96,4 +97,5 @@ fn what_belongs_together_is_asked_for_together() {
     refuse(&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--to-light", "30,0"], "  --sweep <N>\n");
     refuse(&["info", "m", "--timings", "t.json"], "leave them out here");
     refuse(&["adapters", "--adapter", "x"], "leave them out here");
+    refuse(&["paints", "--adapter", "x"], "leave them out here");
 }

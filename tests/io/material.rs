@@ -202,7 +202,7 @@ pub(super) fn walk(folder: &Path) -> Vec<PathBuf> {
 fn wrong_metadata_are_named() {
     let (_folder, path) = saved(&sample([4, 4], 1));
     let edits: [(&str, &str, &str, &[&str]); 9] = [
-        ("zarr.json", r#""format_version": 3"#, r#""format_version": 2"#, &["version 2", "version 3"]),
+        ("zarr.json", r#""format_version": 4"#, r#""format_version": 2"#, &["version 2", "version 4"]),
         ("zarr.json", r#""width": 4"#, r#""width": 4000000000000"#, &["expected shape [4, 4000000000000", "found [4, 4"]),
         ("zarr.json", r#""width": 4"#, r#""width": -4"#, &["\"width\" is -4"]),
         ("zarr.json", r#""boundary": "periodic""#, r#""boundary": "fractal""#, &["provenance", "fractal"]),

@@ -19,6 +19,7 @@ fn a_full_layer_hides_all(gpu: &Gpu) {
     let (below, above) = (layer("oil/viridian"), layer("watercolour/quinacridone rose"));
     let found = blend(gpu, &[[0.3, 0.3, 0.3, 0.0]], &[(&below, &[1.0]), (&above, &[1.0])]);
     let [r, g, b] = above.colour();
+    // The colour in f32.
     hold("alpha_blend: a full layer", worst_difference(found[0].map(f64::from), [r, g, b, 1.0]), 1e-7);
 }
 

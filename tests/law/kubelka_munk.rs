@@ -14,7 +14,7 @@ crate::suite! {
     plain: printed_values_hold_in_f64, films_obey_their_limits, a_divided_film_is_the_film, a_ground_above_white_adds_what_shows_through;
     gpu: printed_values_hold_on_the_gpu, no_coat_leaves_the_ground, an_opaque_coat_hides_the_ground, films_without_absorption_or_scattering,
         a_divided_layer_is_the_layer, more_paint_covers_more, a_white_coat_on_white_stays_white, coverage_is_the_product_of_bare_parts,
-        batches_make_no_difference, layers_add_up_and_bare_texels_stay, the_topmost_surface_shows;
+        batches_make_no_difference, layers_add_up_and_bare_texels_stay, the_topmost_surface_shows, a_breath_of_paint_has_its_own_surface;
 }
 
 /// (s, k, R, T), computed with 30 digits.
@@ -122,6 +122,7 @@ fn no_coat_leaves_the_ground(gpu: &Gpu) {
         let layer = Layer::new(pigment.into(), 3.0, 0.0);
         for (ground, found) in grounds.iter().zip(paint(gpu, &grounds, &[(&layer, &[0.0; 1000])])) {
             let error = ground.iter().zip(found).map(|(ground, found)| (ground - found).abs()).worst();
+            // Nothing is computed below 1; above, a subtraction and a sum.
             hold("kubelka_munk: no coat", error, 1.2e-7);
         }
     }
@@ -134,6 +135,7 @@ fn an_opaque_coat_hides_the_ground(gpu: &Gpu) {
         let layer = Layer::new(pigment.into(), 1e4, 0.0);
         for found in paint(gpu, &grounds, &[(&layer, &[1.0; 100])]) {
             for ((found, s), k) in found.into_iter().zip(pigment.s).zip(pigment.k) {
+                // The film's own parity bound.
                 hold("kubelka_munk: opaque", (f64::from(found) - opaque_reflectance(s, k)).abs(), 3e-7);
             }
         }
@@ -151,6 +153,7 @@ fn films_without_absorption_or_scattering(gpu: &Gpu) {
             for (ground, found) in grounds.iter().zip(found) {
                 let rho = f64::from(ground[0]);
                 let expected = r + t * t * rho / (1.0 - r * rho);
+                // A handful of roundings of values up to 1, and exp.
                 hold("kubelka_munk: K = 0 and S = 0", (f64::from(found[1]) - expected).abs(), 3e-7);
             }
         }
@@ -201,6 +204,7 @@ fn more_paint_covers_more(gpu: &Gpu) {
 fn a_white_coat_on_white_stays_white(gpu: &Gpu) {
     for s in [1e-3, 1.0, 1e2, 1e4, 1e6, 1e8, 1e12] {
         let found = paint(gpu, &[[1.0, 1.0, 1.0, 0.0]; 64], &[(&grey(s, 0.0), &[1.0; 64])]);
+        // R and T are each good to a rounding or two.
         hold("kubelka_munk: white on white", found.iter().map(|texel| (texel[0] - 1.0).abs()).worst(), 3e-7);
     }
 }
@@ -211,6 +215,7 @@ fn coverage_is_the_product_of_bare_parts(gpu: &Gpu) {
     let once = paint(gpu, &[[0.5, 0.5, 0.5, 0.0]; 7], &[(&layer, &drawn)]);
     let twice = paint(gpu, &[[0.5, 0.5, 0.5, 0.0]; 7], &[(&layer, &drawn), (&layer, &drawn)]);
     assert_eq!([once[0][3], once[4][3], once[6][3], twice[0][3], twice[5][3]], [0.0, 1.0, 1.0, 0.0, 1.0]);
+    // A cubic of values up to 1 in f32.
     hold("kubelka_munk: coverage at half of closed", f64::from((once[2][3] - 0.5).abs()), 2e-7);
     for (once, twice) in once.iter().zip(&twice) {
         let bare = 1.0 - f64::from(once[3]);
@@ -254,6 +259,21 @@ fn the_topmost_surface_shows(gpu: &Gpu) {
     for (texel, share) in painted.iter().zip([0.0, 0.5, 1.0]) {
         let mixed = |below: f64, above: f64| below + share * (above - below);
         let expected = [mixed(below.coat().f0(), above.coat().f0()), mixed(0.6, 0.2)];
+        // One mix of two values below 1.
         hold("kubelka_munk: the topmost surface", worst_difference(texel.values()[4..].iter().copied(), expected), 1e-7);
+    }
+}
+
+/// However little is drawn, the surface is that of the layer, not what is left of its rounding.
+fn a_breath_of_paint_has_its_own_surface(gpu: &Gpu) {
+    let layer = Layer { refractive_index: 2.0, roughness: 0.2, ..grey(1.0, 1.0) };
+    let drawn: Vec<_> = (0..40).map(|power| 0.5_f32.powi(power)).collect();
+    for texel in lay(gpu, &vec![Texel::bare([0.5; 3]); drawn.len()], &[(&layer, &drawn)], 1) {
+        assert!(texel.painted[3] >= 0.0 && texel.painted[3] <= 1.0);
+        if texel.painted[3] > 1e-19 {
+            let expected = [layer.coat().f0(), layer.coat().alpha()];
+            // The ratio of covering to coverage is 1, to a rounding.
+            hold("kubelka_munk: surface of a breath", worst_difference(texel.values()[4..].iter().copied(), expected), 1e-7);
+        }
     }
 }

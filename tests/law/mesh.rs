@@ -279,7 +279,8 @@ fn fans_have_tangents_up_to_a_limit() {
 
 fn wrong_arrays_are_errors() {
     type Arrays = (Vec<[f32; 3]>, Vec<[f32; 3]>, Vec<[f32; 4]>, Vec<[f32; 2]>, Vec<[u32; 3]>);
-    let error = |change: &dyn Fn(&mut Arrays)| {
+    type Change = fn(&mut Arrays);
+    let error = |change: Change| {
         let normals = vec![[0.0, 0.0, 1.0]; 3];
         let tangents = vec![[1.0, 0.0, 0.0, 1.0]; 3];
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -288,18 +289,18 @@ fn wrong_arrays_are_errors() {
         let (positions, normals, tangents, texture, triangles) = arrays;
         Mesh::new(positions, normals, tangents, texture, triangles).map_err(|error| error.to_string()).err().unwrap_or_default()
     };
-    assert_eq!(error(&|_| {}), "");
-    let cases: [(&dyn Fn(&mut Arrays), &str); 10] = [
-        (&|arrays| arrays.4.clear(), "at least one triangle"),
-        (&|arrays| arrays.1.truncate(2), "2 normals do not go with 3 positions"),
-        (&|arrays| arrays.2.truncate(2), "2 tangents do not go with 3 positions"),
-        (&|arrays| arrays.3.truncate(2), "2 texture coordinates do not go with 3 positions"),
-        (&|arrays| arrays.4[0][1] = 3, "triangle 0 names vertex 3"),
-        (&|arrays| arrays.0[1][2] = f32::NAN, "the position of vertex 1 has the component NaN"),
-        (&|arrays| arrays.3[2][0] = 2e6, "the texture coordinate of vertex 2 has the component 2000000"),
-        (&|arrays| arrays.1[0] = [0.0, 0.5, 0.0], "the normal of vertex 0 has length 0.5"),
-        (&|arrays| arrays.2[1] = [0.6, 0.0, 0.8, 1.0], "cosine 0.8"),
-        (&|arrays| arrays.2[1][3] = 0.0, "w = 0"),
+    assert_eq!(error(|_| {}), "");
+    let cases: [(Change, &str); 10] = [
+        (|arrays| arrays.4.clear(), "at least one triangle"),
+        (|arrays| arrays.1.truncate(2), "2 normals do not go with 3 positions"),
+        (|arrays| arrays.2.truncate(2), "2 tangents do not go with 3 positions"),
+        (|arrays| arrays.3.truncate(2), "2 texture coordinates do not go with 3 positions"),
+        (|arrays| arrays.4[0][1] = 3, "triangle 0 names vertex 3"),
+        (|arrays| arrays.0[1][2] = f32::NAN, "the position of vertex 1 has the component NaN"),
+        (|arrays| arrays.3[2][0] = 2e6, "the texture coordinate of vertex 2 has the component 2000000"),
+        (|arrays| arrays.1[0] = [0.0, 0.5, 0.0], "the normal of vertex 0 has length 0.5"),
+        (|arrays| arrays.2[1] = [0.6, 0.0, 0.8, 1.0], "cosine 0.8"),
+        (|arrays| arrays.2[1][3] = 0.0, "w = 0"),
     ];
     for (change, part) in cases {
         assert!(error(change).contains(part), "\"{}\" does not contain \"{part}\"", error(change));

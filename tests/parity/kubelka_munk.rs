@@ -38,10 +38,10 @@ pub fn random_ground(random: &mut Random, width: usize, height: usize) -> Map<Pa
     })
 }
 
-/// Half of the texels are drawn near or below the closing thickness, some not at all.
+/// Half of the texels are drawn near or below the closing thickness, some next to nothing and some not at all.
 pub fn random_drawing(random: &mut Random, width: usize, height: usize) -> Map<f64> {
     Map::from_fn(width, height, |_, _| {
-        let most = [0.0, 0.08, 0.08, 1.0, 1.0, 1.0][random.below(6)];
+        let most = [0.0, 10_f64.powf(random.between(-8.0, -4.0)), 0.08, 0.08, 1.0, 1.0, 1.0][random.below(7)];
         f64::from((most * random.unit()) as f32)
     })
 }

@@ -76,6 +76,7 @@ fn a_repeated_surface_gives_the_repeated_picture(gpu: &Gpu) {
         diffuse: tile.diffuse.repeated(columns, rows),
         lobes: tile.lobes.iter().map(|(specular, lobe)| (specular.repeated(columns, rows), lobe.repeated(columns, rows))).collect(),
         painted: tile.painted.repeated(columns, rows),
+        coat: tile.coat.repeated(columns, rows),
         ..tile.clone()
     };
     let (view, light) = (Direction::from_degrees(30.0, 70.0), Direction::from_degrees(40.0, 10.0));
