@@ -19,7 +19,7 @@ crate::suite! {
     plain: built_in_frames_are_orthonormal, tangents_are_derivatives, normals_have_their_closed_forms, surfaces_are_closed,
         areas_have_their_closed_forms, textures_are_near_isometric, library_tangents_are_the_closed_forms, mirrored_materials_have_w_below_zero,
         any_triangles_have_frames, fans_have_tangents_up_to_a_limit, wrong_arrays_are_errors, the_cloth_hangs_over_its_ball;
-    data: frames_of_a_scanned_model_are_orthonormal;
+    data: frames_of_a_loaded_model_are_orthonormal;
 }
 
 const SMOOTH: [Shape; 3] = [Shape::Sphere, Shape::TorusKnot, Shape::Cloth];
@@ -83,7 +83,7 @@ fn built_in_frames_are_orthonormal() {
     }
 }
 
-fn frames_of_a_scanned_model_are_orthonormal(data: &Path) {
+fn frames_of_a_loaded_model_are_orthonormal(data: &Path) {
     let loaded = io::mesh::load(&data.join("spot.obj")).expect("is readable");
     let mesh = &loaded.mesh;
     hold_frames("mesh: frames of spot.obj", mesh);
