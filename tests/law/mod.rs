@@ -21,6 +21,7 @@ crate::suites! {
     lpca,
     lpca_edges,
     masked,
+    mesh,
     microfacet,
     mixture,
     normals,
