@@ -11,11 +11,14 @@ mod grid;
 mod lpca;
 mod map;
 mod material;
+pub mod mesh;
+mod mesh_tangents;
 mod nearest_samples;
 mod painted;
 mod plane_view;
 mod recipe;
 mod samples;
+mod shape;
 
 pub use block::Block;
 pub use btf::{Btf, BtfError, Pair};
@@ -27,10 +30,12 @@ pub use grid::{Grid, GridError};
 pub use lpca::{Learned, Lpca, LpcaCandidate};
 pub use map::{Map, ShapeError};
 pub use material::{Candidate, Choice, Fit, FitStatus, Left, Lobe, Material, Provenance, Svbrdf};
+pub use mesh::{Mesh, MeshError};
 pub use nearest_samples::nearest_samples;
 pub use painted::Painted;
 pub use plane_view::PlaneView;
 pub use recipe::{PatternImage, Recipe};
 pub use samples::{OCTET, Samples};
+pub use shape::Shape;
 
 pub use crate::model::MAX_LOBES;
