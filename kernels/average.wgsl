@@ -1,4 +1,4 @@
-// One more picture of a mean: sum + weight x picture, whose rows are padded. One thread a pixel. Twin: none, a multiply-add.
+// One more picture of a mean: sum + weight x picture, whose rows are padded. One thread a pixel. Twin: reference::average.
 #import thread
 
 struct Params {

@@ -1,6 +1,6 @@
 //! Cameras and lights in the world: right-handed, y up, lengths in units of the mesh.
 
-use glam::{DMat4, DVec3, DVec4, dvec3};
+use glam::{DMat4, DVec3, DVec4, dcamera::rh, dvec3};
 
 /// How a camera projects.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,14 +82,14 @@ impl Camera {
     /// From the world to the clip coordinates of WebGPU of a part of the picture: x and y from -1 to 1 across `window`, depth from 0 to 1.
     #[must_use]
     pub fn clip_from_world(&self, window: Window) -> DMat4 {
-        let view = DMat4::look_at_rh(self.eye, self.target, self.up);
+        let view = rh::view::look_at_mat4(self.eye, self.target, self.up);
         let [width, height] = self.size.map(f64::from);
         let [near, far] = self.depths;
         let projection = match self.projection {
-            Projection::Perspective { field_of_view } => DMat4::perspective_rh(field_of_view, width / height, near, far),
+            Projection::Perspective { field_of_view } => rh::proj::directx::perspective(field_of_view, width / height, near, far),
             Projection::Orthographic { height: high } => {
                 let (x, y) = (0.5 * high * width / height, 0.5 * high);
-                DMat4::orthographic_rh(-x, x, -y, y, near, far)
+                rh::proj::directx::orthographic(-x, x, -y, y, near, far)
             }
         };
         // From clip coordinates of the picture to those of the window.

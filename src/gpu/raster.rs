@@ -150,7 +150,9 @@ impl Target {
         (0..height).step_by(rows as usize).map(move |top| [top, rows.min(height - top)])
     }
 
-    fn row_pixels(&self) -> usize {
+    /// Pixels of a padded row of the copy.
+    #[must_use]
+    pub fn row_pixels(&self) -> usize {
         (self.width as usize).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize / 16)
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::relief::HeightField;
 use crate::{
-    data::{Direction, Map},
+    data::Map,
     model::{
         Boundary, Frame, PaintMethod, Relief, lafortune,
         microfacet::{ggx_specular, schlick},
