@@ -239,11 +239,13 @@ fn has_length(what: &'static str, found: usize, vertices: usize) -> Result<(), M
     if found == vertices { Ok(()) } else { Err(MeshError::Length { what, found, vertices }) }
 }
 
-/// Whether all components are numbers of magnitude `most` at most.
-fn has_numbers<const N: usize>(what: &'static str, values: &[[f32; N]], most: f32) -> Result<(), MeshError> {
+/// Checks that all components of the array `what` are numbers.
+///
+/// # Errors
+/// [`MeshError::Number`] for the first that is not, or is of a larger magnitude than `most`.
+pub fn has_numbers<const N: usize>(what: &'static str, values: &[[f32; N]], most: f32) -> Result<(), MeshError> {
     for (vertex, value) in values.iter().enumerate() {
-        // NaN is not smaller than anything.
-        if let Some(&value) = value.iter().find(|value| !(value.abs() <= most)) {
+        if let Some(&value) = value.iter().find(|value| value.is_nan() || value.abs() > most) {
             return Err(MeshError::Number { what, vertex, value, most });
         }
     }

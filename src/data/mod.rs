@@ -31,6 +31,7 @@ pub use lpca::{Learned, Lpca, LpcaCandidate};
 pub use map::{Map, ShapeError};
 pub use material::{Candidate, Choice, Fit, FitStatus, Left, Lobe, Material, Provenance, Svbrdf};
 pub use mesh::{Mesh, MeshError};
+pub use mesh_tangents::across;
 pub use nearest_samples::nearest_samples;
 pub use painted::Painted;
 pub use plane_view::PlaneView;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{BtfFileError, RecipeError, SelectionFault, lights::LightFault};
+use super::{BtfFileError, MeshFileError, RecipeError, SelectionFault, lights::LightFault};
 use crate::data::{BtfError, Direction, ShapeError, Transfer};
 
 /// Everything that can go wrong with files. A `file` is a path, or an archive's path and the name inside it.
@@ -240,6 +240,9 @@ pub enum IoError {
     /// A `.btf` container.
     #[error(transparent)]
     BtfFile(#[from] BtfFileError),
+    /// A mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshFileError),
     /// A recipe or a library of paints.
     #[error(transparent)]
     Recipe(#[from] RecipeError),

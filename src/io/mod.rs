@@ -12,6 +12,7 @@ mod group;
 mod images;
 pub mod lights;
 pub mod material;
+pub mod mesh;
 mod names;
 pub mod paints;
 pub mod picture;
@@ -28,6 +29,7 @@ use std::path::Path;
 
 pub use btf_file::BtfFileError;
 pub use error::{ArrayFault, IoError};
+pub use mesh::{MeshFault, MeshFileError};
 pub use names::directions_in_name;
 pub use recipe::{RecipeError, RecipeFault};
 pub use selection::SelectionFault;

@@ -94,7 +94,7 @@ fn sphere() -> (Vec<Vertex>, Vec<[u32; 3]>) {
     let vertex = |column: f64, row: u32| {
         let (east, north) = ((column / f64::from(AROUND) % 1.0 - 0.5) * TAU, (f64::from(row) / f64::from(ALONG) - 0.5) * PI);
         // The poles are exact, so that all vertices there are in one place.
-        let (height, radius) = if row % ALONG == 0 { (north.signum(), 0.0) } else { north.sin_cos() };
+        let (height, radius) = if row.is_multiple_of(ALONG) { (north.signum(), 0.0) } else { north.sin_cos() };
         let normal = DVec3::new(radius * east.sin(), height, radius * east.cos());
         Vertex {
             position: normal,

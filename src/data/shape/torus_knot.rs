@@ -87,7 +87,7 @@ pub(super) fn torus_knot() -> (Vec<Vertex>, Vec<[u32; 3]>) {
     let mut stations = vec![station];
     for number in 1..=ALONG * STEPS {
         station = station.carried(stepped(station.t, step));
-        if number % STEPS == 0 {
+        if number.is_multiple_of(STEPS) {
             stations.push(station);
         }
     }
