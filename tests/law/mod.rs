@@ -20,6 +20,7 @@ crate::suites! {
     lpca,
     lpca_edges,
     masked,
+    mesh_pass,
     microfacet,
     normals,
     paint,
