@@ -23,8 +23,6 @@ sources! {
     BOUNDARY = "kernels/common" "boundary";
     /// Reflectance from radiance.
     BRDF_VALUES = "kernels" "brdf_values";
-    /// A stroke of a brush.
-    BRUSH = "kernels/common" "brush";
     /// Real part of a corner of a complex field.
     CROP_REAL = "kernels" "crop_real";
     /// Samples in shadow masked.
@@ -39,8 +37,6 @@ sources! {
     FILM = "kernels/common" "film";
     /// How far from flat a neighbourhood is.
     FLATNESS = "kernels" "flatness";
-    /// A flower.
-    FLOWER = "kernels/common" "flower";
     /// Spectrum of a height field from that of its slopes.
     FRANKOT_CHELLAPPA = "kernels" "frankot_chellappa";
     /// Samples into a tile, masked where they are no radiance.
@@ -113,14 +109,28 @@ sources! {
     NORMALS = "kernels" "normals";
     /// Eight samples as halves.
     OCTET = "kernels/common" "octet";
-    /// Drawn thickness of a procedural pattern.
-    PATTERN = "kernels" "pattern";
+    /// Drawn thickness of a stroke of a brush.
+    PATTERN_BRUSH = "kernels" "pattern_brush";
+    /// Drawn thickness of a flower.
+    PATTERN_FLOWER = "kernels" "pattern_flower";
     /// Drawn thickness of an image.
     PATTERN_IMAGE = "kernels" "pattern_image";
     /// The image reduced.
     PATTERN_IMAGE_REDUCE = "kernels" "pattern_image_reduce";
     /// Edges, ridges and grain of patterns.
     PATTERN_MARKS = "kernels/common" "pattern_marks";
+    /// Drawn thickness of clouds.
+    PATTERN_NOISE = "kernels" "pattern_noise";
+    /// Where patterns are drawn.
+    PATTERN_PLANE = "kernels/common" "pattern_plane";
+    /// Drawn thickness of drops of all sizes.
+    PATTERN_SPATTER = "kernels" "pattern_spatter";
+    /// Drawn thickness of a splash.
+    PATTERN_SPLASH = "kernels" "pattern_splash";
+    /// Drawn thickness of stripes.
+    PATTERN_STRIPES = "kernels" "pattern_stripes";
+    /// The same drawn thickness everywhere.
+    PATTERN_UNIFORM = "kernels" "pattern_uniform";
     /// Exact quantile per texel and channel.
     PERCENTILE = "kernels" "percentile";
     /// Normals and albedo from radiance under known lights.
@@ -153,14 +163,10 @@ sources! {
     SLOPES = "kernels" "slopes";
     /// Sums of rows of slopes.
     SLOPE_SUM = "kernels" "slope_sum";
-    /// Drops of all sizes.
-    SPATTER = "kernels/common" "spatter";
     /// The mean specular residual.
     SPECULAR_RESIDUAL = "kernels" "specular_residual";
     /// Specular reflectance per channel.
     SPECULAR_SCALE = "kernels" "specular_scale";
-    /// A splash.
-    SPLASH = "kernels/common" "splash";
     /// Radiance of a material that is fully known.
     SYNTH = "kernels" "synth";
     /// Interpolation between texels.

@@ -15,10 +15,12 @@ mod import;
 mod info;
 mod lpca;
 mod memory;
+mod mesh;
 mod model;
 mod output;
 mod paint;
 mod painting;
+mod paints;
 mod reading;
 mod reconstruct;
 mod render;
@@ -64,6 +66,7 @@ enum Command {
     Import(import::Import),
     Info(info::Info),
     Paint(paint::Paint),
+    Paints(paints::Paints),
     Reconstruct(reconstruct::Reconstruct),
     Render(render::Render),
     Synth(synth::Synth),
@@ -86,9 +89,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Reconstruct(reconstruct) => reconstruct.run(&session),
         Command::Render(render) => render.run(&session),
         Command::Synth(synth) => synth.run(&session),
-        Command::Info(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
+        Command::Paints(paints) if paints.draws() => paints.run(&session),
+        Command::Info(_) | Command::Paints(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
             .error(clap::error::ErrorKind::ArgumentConflict, "--adapter and --timings are for commands that compute; leave them out here")
             .into()),
+        Command::Paints(paints) => paints.run(&session),
         Command::Info(info) => info.run(),
         Command::Adapters(adapters) => adapters.run(),
     }

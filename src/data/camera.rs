@@ -49,7 +49,7 @@ impl Camera {
     /// orthographic one is the ball's.
     #[must_use]
     pub fn around(target: DVec3, radius: f64, [azimuth, elevation]: [f64; 2], projection: Projection, size: [u32; 2]) -> Self {
-        let toward = dvec3(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
+        let toward = Self::bearing([azimuth, elevation]);
         let narrow = (f64::from(size[0]) / f64::from(size[1])).min(1.0);
         let (distance, projection) = match projection {
             Projection::Perspective { field_of_view } => {
@@ -62,6 +62,12 @@ impl Camera {
         // At the poles any direction is up that is not the view.
         let up = if elevation.cos().abs() < 1e-6 { dvec3(-azimuth.sin(), 0.0, -azimuth.cos()) * elevation.signum() } else { DVec3::Y };
         Self { eye: target + distance * toward, target, up, projection, depths: [(distance - radius).max(1e-3 * distance), distance + radius], size }
+    }
+
+    /// Unit vector towards (`azimuth`, `elevation`), radians: azimuth from +z to the right, elevation towards +y.
+    #[must_use]
+    pub fn bearing([azimuth, elevation]: [f64; 2]) -> DVec3 {
+        dvec3(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos())
     }
 
     /// Unit vector from the target to the eye.

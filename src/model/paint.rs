@@ -121,8 +121,9 @@ pub enum PaintError {
     },
     /// Reflectances that no film has.
     #[error(
-        "paint \"{paint}\" in {channel} reflects {over_white} over white and {over_black} over black; in linear light 0 < over black < over \
-         white < 1 must hold in each channel: no film reflects nothing or everything, nor more over black than over white"
+        "paint \"{paint}\" in {channel} reflects {white} over white and {black} over black; in linear light 0 < over black < over white < 1 \
+         must hold in each channel: no film reflects nothing or everything, nor more over black than over white; measure again, or give K and S",
+        white = short(*over_white), black = short(*over_black)
     )]
     Reflectances {
         /// The paint's name.
@@ -136,8 +137,9 @@ pub enum PaintError {
     },
     /// Reflectances of a film that is all but opaque, which do not tell S.
     #[error(
-        "paint \"{paint}\" in {channel} reflects {over_white} over white and {over_black} over black, a difference of less than {least:.4}: \
-         the film is all but opaque and does not tell its scattering; measure a thinner one"
+        "paint \"{paint}\" in {channel} reflects {white} over white and {black} over black, a difference of less than {least:.4}: the film \
+         is all but opaque and does not tell its scattering; measure a thinner one",
+        white = short(*over_white), black = short(*over_black)
     )]
     Opaque {
         /// The paint's name.
@@ -152,7 +154,7 @@ pub enum PaintError {
         least: f64,
     },
     /// A setting of a layer lies outside its range.
-    #[error("{setting} of the layer of \"{paint}\" is {found}; it must be at least {low} and at most {high:e}")]
+    #[error("{setting} of the layer of \"{paint}\" is {found}; it must be at least {low} and at most {most}", most = short(*high))]
     Setting {
         /// The paint's name.
         paint: String,
@@ -165,6 +167,11 @@ pub enum PaintError {
         /// Largest value allowed.
         high: f64,
     },
+}
+
+/// A number for a message: to six decimals, large ones by their exponent.
+fn short(value: f64) -> String {
+    if value.abs() >= 1e5 { format!("{value:e}") } else { ((value * 1e6).round() / 1e6).to_string() }
 }
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];

@@ -63,11 +63,11 @@ pub enum Pattern {
 
 /// A pattern or placement that cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the {setting} of {of} is {found}; it must be {expected}")]
+#[error("the setting \"{setting}\" of {of} is {found}; it must be {expected}")]
 pub struct PatternError {
     /// "stripes", "a brush stroke", "a placement" and so on.
     pub of: &'static str,
-    /// Which setting: "width", "number of petals" and so on.
+    /// Which setting, by its name in recipes.
     pub setting: &'static str,
     /// The value.
     pub found: f64,
@@ -89,7 +89,7 @@ pub struct Capsule {
 impl Capsule {
     /// A lower bound of the distance from `place` to its outline: it counts as thick as it is anywhere.
     #[must_use]
-    pub fn at_least_apart(&self, place: [f64; 2]) -> f64 {
+    pub fn least_distance(&self, place: [f64; 2]) -> f64 {
         let axis = [0, 1].map(|i| self.to[i] - self.from[i]);
         let from = [0, 1].map(|i| place[i] - self.from[i]);
         let length2 = axis[0] * axis[0] + axis[1] * axis[1];
@@ -101,21 +101,6 @@ impl Capsule {
 impl Pattern {
     /// Points that the coarsest lattice of a spatter has along the shorter edge of its cell.
     pub const SPATTER_LATTICE: u32 = 6;
-
-    /// The code that the kernel knows it by (`kernels/pattern.wgsl`).
-    #[must_use]
-    pub fn code(self) -> u32 {
-        match self {
-            Self::Uniform { .. } => 0,
-            Self::Splash { .. } => 1,
-            Self::Brush { .. } => 2,
-            Self::Flower { .. } => 3,
-            Self::Spatter { .. } => 4,
-            Self::Stripes { .. } => 5,
-            Self::Noise { .. } => 6,
-            Self::Image { .. } => 7,
-        }
-    }
 
     /// The name of its kind, as recipes have it.
     #[must_use]
@@ -153,25 +138,23 @@ impl Pattern {
         let refused = |of, setting, found, expected| Err(PatternError { of, setting, found, expected });
         match self {
             Self::Uniform { drawn } if !(0.0..=1.0).contains(&drawn) => {
-                refused("a uniform pattern", "drawn thickness", drawn, "at least 0 and at most 1")
+                refused("a uniform pattern", "drawn", drawn, "at least 0 and at most 1")
             }
             Self::Flower { petals, .. } if !(3..=16).contains(&petals) => {
-                refused("a flower", "number of petals", petals.into(), "at least 3 and at most 16")
+                refused("a flower", "petals", petals.into(), "at least 3 and at most 16")
             }
             Self::Brush { width, .. } if !(0.01..=0.5).contains(&width) => {
                 refused("a brush stroke", "width", width, "at least 0.01 and at most 0.5 of the cell's shorter edge")
             }
             Self::Spatter { cover, .. } if !(cover > 0.0 && cover <= 0.9) => {
-                refused("a spatter", "covered part", cover, "above 0 and at most 0.9")
+                refused("a spatter", "cover", cover, "above 0 and at most 0.9")
             }
             Self::Stripes { count, .. } if !(1..=1000).contains(&count) => {
-                refused("stripes", "number", count.into(), "at least 1 and at most 1000")
+                refused("stripes", "count", count.into(), "at least 1 and at most 1000")
             }
-            Self::Stripes { width, .. } if !(width > 0.0 && width < 1.0) => {
-                refused("stripes", "painted part", width, "above 0 and below 1")
-            }
+            Self::Stripes { width, .. } if !(width > 0.0 && width < 1.0) => refused("stripes", "width", width, "above 0 and below 1"),
             Self::Noise { count, .. } if !(1..=1000).contains(&count) => {
-                refused("noise", "number of clouds", count.into(), "at least 1 and at most 1000")
+                refused("noise", "count", count.into(), "at least 1 and at most 1000")
             }
             _ => Ok(self),
         }
@@ -194,8 +177,8 @@ fn splash(seed: u32) -> Vec<Capsule> {
     let at = |radius: f64, angle: f64| [radius * angle.cos(), radius * angle.sin()];
     let mut shapes = Vec::new();
     for _ in 0..5 {
-        let centre = at(between(0.0, 0.11), between(0.0, TAU));
-        let radius = between(0.06, 0.11);
+        let centre = at(between(0.0, 0.12), between(0.0, TAU));
+        let radius = between(0.06, 0.12);
         shapes.push(Capsule { from: centre, to: centre, radii: [radius, radius] });
     }
     // Fingers: thrown outwards, thin, with a bead at the tip.
@@ -208,9 +191,9 @@ fn splash(seed: u32) -> Vec<Capsule> {
         shapes.push(Capsule { from: tip, to: tip, radii: [bead, bead] });
     }
     // Drops: many small ones, few large ones, drawn out along their flight.
-    for _ in 0..36 {
-        let (reach, angle) = (between(0.22, 0.42), between(0.0, TAU));
-        let radius = 0.003 + 0.016 * between(0.0, 1.0).powi(3);
+    for _ in 0..40 {
+        let (reach, angle) = (between(0.22, 0.43), between(0.0, TAU));
+        let radius = 0.004 + 0.018 * between(0.0, 1.0).powi(3);
         let tail = radius * between(0.2, 1.6);
         shapes.push(Capsule { from: at(reach - tail, angle), to: at(reach, angle), radii: [0.6 * radius, radius] });
     }

@@ -42,14 +42,10 @@ impl Placement {
         let refused = |setting, found, expected| Err(PatternError { of: "a placement", setting, found, expected });
         let finite = "a finite number";
         match self {
-            Self { tiling: [columns, _], .. } if !(1..=1000).contains(&columns) => {
-                refused("number of columns", columns.into(), "at least 1 and at most 1000")
+            Self { tiling: [count, _] | [_, count], .. } if !(1..=1000).contains(&count) => {
+                refused("tiling", count.into(), "at least 1 and at most 1000 cells either way")
             }
-            Self { tiling: [_, rows], .. } if !(1..=1000).contains(&rows) => {
-                refused("number of rows", rows.into(), "at least 1 and at most 1000")
-            }
-            Self { offset: [right, _], .. } if !right.is_finite() => refused("offset to the right", right, finite),
-            Self { offset: [_, up], .. } if !up.is_finite() => refused("offset upwards", up, finite),
+            Self { offset: [distance, _] | [_, distance], .. } if !distance.is_finite() => refused("offset", distance, finite),
             Self { rotation, .. } if !rotation.is_finite() => refused("rotation", rotation, finite),
             Self { size, .. } if !(0.001..=4.0).contains(&size) => refused("size", size, "at least 0.001 and at most 4"),
             _ => Ok(self),

@@ -1,12 +1,15 @@
-//! A procedural pattern: the thickness drawn at each texel. Kernel `pattern`, twin
-//! [`reference::pattern`](crate::reference::pattern).
+//! A procedural pattern: the thickness drawn at each texel. Kernels `pattern_brush`, `pattern_flower`, `pattern_noise`,
+//! `pattern_spatter`, `pattern_splash`, `pattern_stripes` and `pattern_uniform`, twin
+//! [`reference::pattern`](crate::reference::pattern()).
 //!
-//! The shapes of a splash are sorted into square bins, so that a texel looks only at those that reach it. This changes nothing: beyond
-//! a distance of `FLOW` from its outline a shape adds an exact zero, and each bin keeps the order of its shapes.
+//! The shapes of a splash are sorted into square bins, so that a texel looks only at those that reach it. This changes nothing: at
+//! `FLOW` from its outline and beyond a shape adds exactly zero, and each bin keeps the order of its shapes.
+
+use std::f64::consts::SQRT_2;
 
 use super::scalar::{count, single};
 use crate::{
-    gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, bind},
+    gpu::{Buffer, Gpu, GpuError, Grid, Kernel, Recorder, Resource, Source, bind},
     gpu_struct,
     model::{self, Placement},
     wgsl,
@@ -15,38 +18,50 @@ use crate::{
 gpu_struct! {
     struct Params {
         size: [u32; 2], cell: [f32; 2], edges: [f32; 2], offset: [f32; 2], turn: [f32; 2], scale: f32, texel: f32, repeats: [u32; 2],
-        lattice: [u32; 2], wave: [f32; 2], pattern: u32, seed: u32, petals: u32, amount: f32, first: u32, _pad: u32,
+        lattice: [u32; 2], wave: [f32; 2], seed: u32, petals: u32, amount: f32, first: u32,
     }
 }
 gpu_struct! {
     struct Capsule { ends: [f32; 4], radii: [f32; 2], _pad: [f32; 2] }
 }
 
-/// As in the kernel: where splash, flower and brush stroke end, pattern coordinates.
-const REACH: f64 = 0.52;
-/// As in the kernel: bins along each edge of the square from -0.5 to 0.5, and the distance at which a shape ends having a part.
-const SPLASH_BINS: u32 = 16;
+/// As in `pattern_plane`: distance from its middle at which a pattern that does not fill its cell ends, pattern coordinates.
+const REACH: f64 = 0.49;
+/// As in `pattern_splash`: bins along each edge of the square from -0.5 to 0.5, and the distance at which a shape ends having a part.
+const BINS: u32 = 16;
 const FLOW: f64 = 0.05;
 
-/// The stage's kernel on one device.
+/// The stage's kernels on one device.
 #[derive(Debug)]
 pub struct Pattern {
-    kernel: Kernel,
+    brush: Kernel,
+    flower: Kernel,
+    noise: Kernel,
+    spatter: Kernel,
+    splash: Kernel,
+    stripes: Kernel,
+    uniform: Kernel,
 }
 
 impl Pattern {
-    /// Builds the kernel.
+    /// Builds the kernels.
     ///
     /// # Errors
-    /// [`GpuError`] if the driver refuses it.
+    /// [`GpuError`] if the driver refuses one.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let resources = [
-            Resource::uniform::<Params>("params"),
-            Resource::read::<u32>("bins"),
-            Resource::read::<Capsule>("shapes"),
-            Resource::read_write::<f32>("drawn"),
-        ];
-        Ok(Self { kernel: Kernel::new(gpu, &wgsl::PATTERN, wgsl::ALL, &resources)? })
+        let build = |source: &Source, shapes: &[Resource]| {
+            let resources = [&[Resource::uniform::<Params>("params"), Resource::read_write::<f32>("drawn")], shapes].concat();
+            Kernel::new(gpu, source, wgsl::ALL, &resources)
+        };
+        Ok(Self {
+            brush: build(&wgsl::PATTERN_BRUSH, &[])?,
+            flower: build(&wgsl::PATTERN_FLOWER, &[])?,
+            noise: build(&wgsl::PATTERN_NOISE, &[])?,
+            spatter: build(&wgsl::PATTERN_SPATTER, &[])?,
+            splash: build(&wgsl::PATTERN_SPLASH, &[Resource::read::<u32>("bins"), Resource::read::<Capsule>("shapes")])?,
+            stripes: build(&wgsl::PATTERN_STRIPES, &[])?,
+            uniform: build(&wgsl::PATTERN_UNIFORM, &[])?,
+        })
     }
 
     /// Draws `pattern` at `placement` into `drawn` `[layer][row][column]`, 0 (bare) to 1, as layer number `layer`, on a plane of
@@ -67,69 +82,63 @@ impl Pattern {
         let texels = size[0] as usize * size[1] as usize;
         assert!(drawn.len() >= (layer + 1) * texels, "layers of \"{}\"", drawn.label());
         let gpu = recorder.gpu();
-        let (cell, edges) = (placement.cell(size), placement.edges(size));
-        // A texel as wide as the pattern's features is wide enough to average them.
-        let texel = (1.0 / (cell[0].min(cell[1]) * placement.size)).min(0.25);
-        let mut params = Params {
-            size,
-            cell: cell.map(single),
-            edges: edges.map(single),
-            offset: [0, 1].map(|axis| single(placement.offset[axis] % edges[axis])),
-            turn: placement.turn().map(single),
-            scale: single(placement.size),
-            texel: single(texel),
-            pattern: pattern.code(),
-            seed: pattern.seed(),
-            first: count(layer * texels),
-            ..Default::default()
-        };
-        match pattern {
-            model::Pattern::Uniform { drawn } => params.amount = single(drawn),
-            model::Pattern::Splash { .. } => params.repeats = repeats(placement, edges, texel),
-            model::Pattern::Flower { petals, .. } => {
-                params.repeats = repeats(placement, edges, texel);
-                params.petals = petals;
-            }
-            model::Pattern::Brush { width, .. } => {
-                params.repeats = repeats(placement, edges, texel);
-                params.amount = single(width);
-            }
+        let params = Params { seed: pattern.seed(), first: count(layer * texels), ..placed(placement, size) };
+        let (kernel, params) = match pattern {
+            model::Pattern::Uniform { drawn } => (&self.uniform, Params { amount: single(drawn), ..params }),
+            model::Pattern::Splash { .. } => (&self.splash, params),
+            model::Pattern::Flower { petals, .. } => (&self.flower, Params { petals, ..params }),
+            model::Pattern::Brush { width, .. } => (&self.brush, Params { amount: single(width), ..params }),
             model::Pattern::Spatter { cover, .. } => {
-                params.lattice = placement.lattice(model::Pattern::SPATTER_LATTICE, size);
-                params.amount = single(cover);
+                let lattice = placement.lattice(model::Pattern::SPATTER_LATTICE, size);
+                (&self.spatter, Params { lattice, amount: single(cover), ..params })
             }
             model::Pattern::Stripes { count, width } => {
-                params.wave = placement.wave(count, size).map(single);
-                params.amount = single(width);
+                (&self.stripes, Params { wave: placement.wave(count, size).map(single), amount: single(width), ..params })
             }
             // A cloud and the gap beside it are two points of the lattice.
-            model::Pattern::Noise { count, .. } => params.lattice = placement.lattice(2 * count, size),
-            model::Pattern::Image { .. } => panic!("an image is drawn by another stage"),
-        }
-        let (bins, shapes) = binned(&pattern.shapes());
+            model::Pattern::Noise { count, .. } => (&self.noise, Params { lattice: placement.lattice(2 * count, size), ..params }),
+            model::Pattern::Image { .. } => panic!("images are drawn by stage::PatternImage"),
+        };
         let params = gpu.uniform("pattern params", &params)?;
-        let bins = gpu.upload("pattern bins", &bins)?;
-        let shapes = gpu.upload("pattern shapes", &shapes)?;
-        let binds = [bind("params", &params), bind("bins", &bins), bind("shapes", &shapes), bind("drawn", drawn)];
-        recorder.dispatch(&self.kernel, &binds, Grid::threads(texels))
+        let mut binds = vec![bind("params", &params), bind("drawn", drawn)];
+        let (bins, shapes);
+        if let model::Pattern::Splash { .. } = pattern {
+            let (offsets, sorted) = binned(&pattern.shapes());
+            (bins, shapes) = (gpu.upload("splash bins", &offsets)?, gpu.upload("splash shapes", &sorted)?);
+            binds.extend([bind("bins", &bins), bind("shapes", &shapes)]);
+        }
+        recorder.dispatch(kernel, &binds, Grid::threads(texels))
     }
 }
 
-/// How many repetitions of a pattern, to either side of the nearest, may reach a place.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 3: sizes end at 4, and a texel counts as 0.25 at most")]
-fn repeats(placement: Placement, edges: [f64; 2], texel: f64) -> [u32; 2] {
-    edges.map(|edge| ((REACH + texel) * placement.size / edge - 0.5).ceil().max(0.0) as u32)
+/// The parameters that tell where a pattern is drawn.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 2 repetitions: sizes end at 4, texels at 0.25")]
+fn placed(placement: Placement, size: [u32; 2]) -> Params {
+    let (cell, edges) = (placement.cell(size), placement.edges(size));
+    // A texel that is a quarter of the pattern has nothing left to average.
+    let texel = (1.0 / (cell[0].min(cell[1]) * placement.size)).min(0.25);
+    Params {
+        size,
+        cell: cell.map(single),
+        edges: edges.map(single),
+        offset: [0, 1].map(|axis| single(placement.offset[axis] % edges[axis])),
+        turn: placement.turn().map(single),
+        scale: single(placement.size),
+        texel: single(texel),
+        // From the nearest repetition on, its middle at most half an edge away.
+        repeats: edges.map(|edge| ((REACH + 0.75 * texel) * placement.size / edge - 0.5).ceil().max(0.0) as u32),
+        ..Default::default()
+    }
 }
 
 /// The shapes that may reach each bin, bin after bin, and where each bin begins; one more number tells where the last one ends.
 fn binned(shapes: &[model::Capsule]) -> (Vec<u32>, Vec<Capsule>) {
-    let width = 1.0 / f64::from(SPLASH_BINS);
-    let from_middle = 0.5 * width * std::f64::consts::SQRT_2;
+    let width = 1.0 / f64::from(BINS);
     let (mut bins, mut sorted) = (vec![0], Vec::new());
-    for bin in 0..SPLASH_BINS * SPLASH_BINS {
-        let middle = [bin % SPLASH_BINS, bin / SPLASH_BINS].map(|index| (f64::from(index) + 0.5) * width - 0.5);
-        // A margin for the rounding of kernels.
-        let near = |shape: &&model::Capsule| shape.at_least_apart(middle) < FLOW + from_middle + 1e-4;
+    for bin in 0..BINS * BINS {
+        let middle = [bin % BINS, bin / BINS].map(|index| (f64::from(index) + 0.5) * width - 0.5);
+        // Half a bin's diagonal from its middle, and a margin for the rounding of kernels.
+        let near = |shape: &&model::Capsule| shape.least_distance(middle) < FLOW + 0.5 * SQRT_2 * width + 1e-4;
         sorted.extend(shapes.iter().filter(near).copied().map(capsule));
         bins.push(count(sorted.len()));
     }

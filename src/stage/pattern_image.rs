@@ -26,6 +26,8 @@ gpu_struct! {
 
 /// Most pixels a texel, along an axis, that are averaged without reducing the image first.
 const MOST: f64 = 8.0;
+/// So that no rounding decides what a whole number of pixels a texel is.
+const MARGIN: f64 = 1e-6;
 /// Most repetitions to either side of the nearest that are looked at: a long image, turned in a long cell, meets itself without end.
 const MOST_REPEATS: f64 = 16.0;
 
@@ -96,7 +98,7 @@ impl PatternImage {
 fn factor(image_size: [u32; 2], extent: [f64; 2]) -> Option<[u32; 2]> {
     let factor = [0, 1].map(|axis| {
         let a_texel = f64::from(image_size[axis]) / extent[axis];
-        if a_texel > MOST && image_size[axis] > 1 { (a_texel / (0.5 * MOST)).clamp(2.0, 8.0) as u32 } else { 1 }
+        if a_texel > MOST + MARGIN && image_size[axis] > 1 { (a_texel / (0.5 * MOST) + MARGIN).clamp(2.0, 8.0) as u32 } else { 1 }
     });
     (factor != [1, 1]).then_some(factor)
 }

@@ -96,4 +96,5 @@ fn what_belongs_together_is_asked_for_together() {
     refuse(&["reconstruct", "m", "--view", "0,0", "--light", "0,0", "-o", "a.png", "--to-light", "30,0"], "  --sweep <N>\n");
     refuse(&["info", "m", "--timings", "t.json"], "leave them out here");
     refuse(&["adapters", "--adapter", "x"], "leave them out here");
+    refuse(&["paints", "--adapter", "x"], "leave them out here");
 }

@@ -11,8 +11,10 @@ mod btf_file;
 mod image_name;
 #[path = "../fuzz/light_file.rs"]
 mod light_file;
+#[path = "../fuzz/recipe.rs"]
+pub mod recipe;
 
-crate::suite! { plain: containers, image_names, light_files; }
+crate::suite! { plain: containers, image_names, light_files, recipes; }
 
 fn containers() {
     each("btf_file", btf_file::exercise);
@@ -24,6 +26,10 @@ fn image_names() {
 
 fn light_files() {
     each("light_file", light_file::exercise);
+}
+
+fn recipes() {
+    each("recipe", recipe::exercise);
 }
 
 /// Calls a target's function for every file of its corpus.

@@ -1,6 +1,6 @@
-use overpaint::model::{Layer, Paint, PaintError, Pattern, pigments, pigments::PigmentError};
+use overpaint::model::{Layer, Paint, PaintError, Pattern, Placement, pigments, pigments::PigmentError};
 
-crate::suite! { plain: names_are_found_however_written, a_name_in_both_sets_is_refused, an_unknown_name_lists_near_ones, the_library_is_sound, impossible_layers_are_refused, impossible_strokes_are_refused; }
+crate::suite! { plain: names_are_found_however_written, a_name_in_both_sets_is_refused, an_unknown_name_lists_near_ones, the_library_is_sound, impossible_layers_are_refused, impossible_patterns_are_refused, impossible_placements_are_refused; }
 
 fn names_are_found_however_written() {
     for name in ["Hooker's Green", "hookers green", "HOOKERS-GREEN", "watercolour/hookers green", "Watercolour / Hookers Green"] {
@@ -56,10 +56,68 @@ fn impossible_layers_are_refused() {
     assert!(with(|layer| layer.roughness = 0.0).starts_with("roughness"));
 }
 
-fn impossible_strokes_are_refused() {
-    let stroke = |angle, width| Pattern::Brush { seed: 1, angle, width }.checked();
-    assert!(stroke(1.0, 0.2).is_ok());
-    assert!(stroke(f64::NAN, 0.2).is_err());
-    let error = stroke(0.0, 0.8).expect_err("is too wide").to_string();
-    assert!(error.starts_with("the width of a brush stroke is 0.8; it must be"), "{error}");
+fn impossible_patterns_are_refused() {
+    let found = |pattern: Pattern| pattern.checked().map_or_else(|error| error.to_string(), |_| "accepted".to_owned());
+    for drawn in [0.0, 0.5, 1.0] {
+        assert_eq!(found(Pattern::Uniform { drawn }), "accepted");
+    }
+    for pattern in [
+        Pattern::Image { image: usize::MAX },
+        Pattern::Splash { seed: 0 },
+        Pattern::Flower { seed: 1, petals: 3 },
+        Pattern::Flower { seed: 1, petals: 16 },
+        Pattern::Brush { seed: 1, width: 0.01 },
+        Pattern::Brush { seed: 1, width: 0.5 },
+        Pattern::Spatter { seed: 1, cover: 0.9 },
+        Pattern::Stripes { count: 1, width: 0.01 },
+        Pattern::Stripes { count: 1000, width: 0.99 },
+        Pattern::Noise { seed: 1, count: 1000 },
+    ] {
+        assert_eq!(found(pattern), "accepted", "{pattern:?}");
+    }
+    assert_eq!(found(Pattern::Uniform { drawn: 1.5 }), "the setting \"drawn\" of a uniform pattern is 1.5; it must be at least 0 and at most 1");
+    assert_eq!(found(Pattern::Flower { seed: 1, petals: 2 }), "the setting \"petals\" of a flower is 2; it must be at least 3 and at most 16");
+    let error = "the setting \"width\" of a brush stroke is 0.8; it must be at least 0.01 and at most 0.5 of the cell's shorter edge";
+    assert_eq!(found(Pattern::Brush { seed: 1, width: 0.8 }), error);
+    assert_eq!(found(Pattern::Spatter { seed: 1, cover: 0.0 }), "the setting \"cover\" of a spatter is 0; it must be above 0 and at most 0.9");
+    assert_eq!(found(Pattern::Stripes { count: 0, width: 0.5 }), "the setting \"count\" of stripes is 0; it must be at least 1 and at most 1000");
+    assert_eq!(found(Pattern::Stripes { count: 3, width: 1.0 }), "the setting \"width\" of stripes is 1; it must be above 0 and below 1");
+    assert!(found(Pattern::Noise { seed: 1, count: 1001 }).starts_with("the setting \"count\" of noise is 1001"));
+    for pattern in [
+        Pattern::Uniform { drawn: f64::NAN },
+        Pattern::Flower { seed: 1, petals: 17 },
+        Pattern::Brush { seed: 1, width: f64::NAN },
+        Pattern::Spatter { seed: 1, cover: f64::NAN },
+        Pattern::Stripes { count: 1001, width: 0.5 },
+        Pattern::Stripes { count: 3, width: f64::NAN },
+        Pattern::Noise { seed: 1, count: 0 },
+    ] {
+        assert!(pattern.checked().is_err(), "{pattern:?}");
+    }
+}
+
+fn impossible_placements_are_refused() {
+    let default = Placement::default();
+    for placement in [
+        default,
+        Placement { tiling: [1000, 1], offset: [-1e9, 1e9], rotation: -100.0, size: 4.0 },
+        Placement { tiling: [1, 1000], size: 0.001, ..default },
+    ] {
+        assert_eq!(placement.checked(), Ok(placement));
+    }
+    let error = Placement { size: 5.0, ..default }.checked().expect_err("is too large").to_string();
+    assert_eq!(error, "the setting \"size\" of a placement is 5; it must be at least 0.001 and at most 4");
+    let error = Placement { tiling: [3, 0], ..default }.checked().expect_err("has no rows").to_string();
+    assert_eq!(error, "the setting \"tiling\" of a placement is 0; it must be at least 1 and at most 1000 cells either way");
+    for placement in [
+        Placement { tiling: [0, 1], ..default },
+        Placement { tiling: [1, 1001], ..default },
+        Placement { offset: [f64::NAN, 0.0], ..default },
+        Placement { offset: [0.0, f64::INFINITY], ..default },
+        Placement { rotation: f64::NAN, ..default },
+        Placement { size: 0.0, ..default },
+        Placement { size: f64::NAN, ..default },
+    ] {
+        assert!(placement.checked().is_err(), "{placement:?}");
+    }
 }

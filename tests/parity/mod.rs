@@ -23,6 +23,7 @@ crate::suites! {
     lpca_weights,
     normals,
     pattern,
+    pattern_image,
     percentile,
     photometric_stereo,
     picture_error,

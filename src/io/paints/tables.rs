@@ -1,6 +1,6 @@
 //! Tables `[paints.NAME]`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Found, OwnPaint, Paints};
 use crate::{
@@ -58,7 +58,7 @@ impl Paints {
         }
         let mut waiting = Vec::new();
         for (name, table) in mixtures {
-            let table = table.only(&["mix", "source"])?;
+            let table = table.which("a mixture").only(&["mix", "source"])?;
             let parts = self.parts(&table, &names)?;
             waiting.push(Mixture { name, table, parts });
         }
@@ -108,13 +108,15 @@ impl Paints {
 
     /// Makes mixtures, those first whose parts are there.
     fn mix(&mut self, mut waiting: Vec<Mixture<'_>>) -> Outcome<()> {
+        let mut names: BTreeSet<String> = waiting.iter().map(|mixture| pigments::plain(mixture.name)).collect();
         while !waiting.is_empty() {
-            let (ready, rest): (Vec<_>, Vec<_>) =
-                waiting.into_iter().partition(|mixture| mixture.parts.iter().all(|(name, _)| self.find(name).is_ok()));
+            let is_ready = |mixture: &Mixture<'_>| mixture.parts.iter().all(|(name, _)| !names.contains(&pigments::plain(name)));
+            let (ready, rest): (Vec<_>, Vec<_>) = waiting.into_iter().partition(is_ready);
             if ready.is_empty() {
-                return Err(self.circle(&rest));
+                return Err(circle(&rest));
             }
             for mixture in ready {
+                names.remove(&pigments::plain(mixture.name));
                 let own = self.mixed(&mixture)?;
                 self.insert(own);
             }
@@ -146,25 +148,23 @@ impl Paints {
         let paint = Paint::mixture(name, &parts).map_err(|error| table.fault_at("mix", error))?;
         Ok(OwnPaint { paint, unit, source: Some(source) })
     }
+}
 
-    /// The fault that mixtures wait for each other: each has a part among them.
-    fn circle(&self, waiting: &[Mixture<'_>]) -> Placed {
-        let next = |mixture: &Mixture<'_>| {
-            let part = mixture.parts.iter().find(|(name, _)| self.find(name).is_err())?;
-            waiting.iter().position(|other| pigments::plain(other.name) == pigments::plain(part.0))
-        };
-        let mut path = vec![0];
-        while let Some(part) = next(&waiting[path[path.len() - 1]]) {
-            if let Some(start) = path.iter().position(|&mixture| mixture == part) {
-                path.drain(..start);
-                path.push(part);
-                break;
-            }
-            path.push(part);
+/// The fault that mixtures wait for each other: each has a part among them.
+fn circle(waiting: &[Mixture<'_>]) -> Placed {
+    let is_called = |mixture: &Mixture<'_>, name: &str| pigments::plain(mixture.name) == pigments::plain(name);
+    let next = |mixture: &Mixture<'_>| mixture.parts.iter().find_map(|(name, _)| waiting.iter().position(|other| is_called(other, name)));
+    let mut path = vec![0];
+    while let Some(part) = next(&waiting[path[path.len() - 1]]) {
+        let seen = path.iter().position(|&mixture| mixture == part);
+        path.push(part);
+        if let Some(start) = seen {
+            path.drain(..start);
+            break;
         }
-        let names: Vec<_> = path.iter().map(|&mixture| format!("\"{}\"", waiting[mixture].name)).collect();
-        waiting[path[0]].table.fault_at("mix", RecipeFault::Circle { names: names.join(" of ") })
     }
+    let names: Vec<_> = path.iter().map(|&mixture| format!("\"{}\"", waiting[mixture].name)).collect();
+    waiting[path[0]].table.fault_at("mix", RecipeFault::Circle { names: names.join(" of ") })
 }
 
 /// How a paint is given.
@@ -188,7 +188,7 @@ fn way(table: &Table<'_>) -> Outcome<Way> {
 }
 
 fn by_coefficients(name: &str, table: Table<'_>) -> Outcome<OwnPaint> {
-    let table = table.only(&["k", "s", "unit", "source"])?;
+    let table = table.which("by k and s").only(&["k", "s", "unit", "source"])?;
     let [k, s] = [("k", "k = [0.17, 0.13, 0.01]"), ("s", "s = [0.03, 0.02, 0.04]")].map(|(key, example)| {
         let channels: [Value<'_>; 3] = table.need(key, example)?.array("three numbers, of red, green and blue")?;
         let [r, g, b] = channels.map(Value::number);
@@ -207,7 +207,7 @@ fn by_coefficients(name: &str, table: Table<'_>) -> Outcome<OwnPaint> {
 }
 
 fn by_colours(name: &str, table: Table<'_>) -> Outcome<OwnPaint> {
-    let table = table.only(&["over_white", "over_black", "thickness", "exact", "unit", "source"])?;
+    let table = table.which("by its colours").only(&["over_white", "over_black", "thickness", "exact", "unit", "source"])?;
     let over_white = reflectances(table.need("over_white", "over_white = \"#1d8f8a\"")?)?;
     let over_black = reflectances(table.need("over_black", "over_black = \"#0a3c3a\"")?)?;
     let thickness = table.get("thickness").map_or(Ok(1.0), positive)?;

@@ -13,25 +13,22 @@ use crate::{
 /// Luma of R, G and B (ITU-R BT.709).
 const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Reads an image of at most `most` texels as a thickness from 0 to 1, the top row first.
+/// Reads an image as a thickness from 0 to 1, the top row first.
 ///
 /// Of integers it is the code over the largest code, not decoded from sRGB: what looks half as bright is half as thick. Floating-point
 /// numbers are taken as they are and held to 0..=1. Of colours it is the luma, times the opacity where an image of integers has one; in
 /// OpenEXR colours are multiplied by it already.
-pub(in crate::io) fn drawing(path: &Path, most: usize) -> Result<Map<f32>, IoError> {
+pub(in crate::io) fn drawing(path: &Path) -> Result<Map<f32>, IoError> {
     let file = path.display().to_string();
     let unreadable = |source| IoError::Read { file: file.clone(), source };
     let reader = File::open(path).map_err(unreadable)?;
     let declared = reader.metadata().map_err(unreadable)?.len();
     let bytes = archive::bounded(&file, declared, reader).map_err(unreadable)??;
-    guarded(&file, || read(&file, &bytes, most))
+    guarded(&file, || read(&file, &bytes))
 }
 
-fn read(file: &str, bytes: &[u8], most: usize) -> Result<Map<f32>, IoError> {
+fn read(file: &str, bytes: &[u8]) -> Result<Map<f32>, IoError> {
     let [width, height] = read_header(file, bytes)?.size;
-    if width * height > most {
-        return Err(IoError::TooManyTexels { file: file.to_owned(), width, height, limit: most });
-    }
     let values = match Decoder::open(file, bytes)? {
         Decoder::Library(decoder) => {
             let channels = usize::from(decoder.color_type().channel_count());
@@ -48,6 +45,9 @@ fn read(file: &str, bytes: &[u8], most: usize) -> Result<Map<f32>, IoError> {
             Picture::Floats(values) => thickness(&values, 3, 1.0),
         },
     };
+    if values.is_empty() {
+        return Err(IoError::Damaged { file: file.to_owned(), message: "it has no texels".to_owned() });
+    }
     match values.iter().position(|value| value.is_nan()) {
         Some(texel) => Err(IoError::NoThickness { file: file.to_owned(), column: texel % width, row: texel / width }),
         None => Ok(Map::new(width, height, values)?),

@@ -13,6 +13,9 @@ use crate::io::IoError;
 /// The longest file that is read.
 const MAX_BYTES: u64 = 1 << 20;
 
+/// The longest name of a file, in bytes.
+const MAX_PATH: usize = 1024;
+
 /// Characters of a line that an error shows.
 const SHOWN: usize = 120;
 
@@ -74,10 +77,11 @@ impl<'a> Document<'a> {
         let line_start = before.rfind('\n').map_or(0, |end| end + 1);
         let line_end = after.find('\n').map_or(self.text.len(), |length| start + length);
         let (line, column) = (before.matches('\n').count() + 1, self.text[line_start..start].chars().count() + 1);
-        // A window of a long line, with what is meant in its first half.
-        let skipped = column.saturating_sub(SHOWN / 2);
+        let line_text = self.text[line_start..line_end].trim_end();
+        // Of a long line, a window with what is meant in its middle.
+        let skipped = if line_text.chars().count() > SHOWN { column.saturating_sub(SHOWN / 2) } else { 0 };
         let plain = |character: char| if character.is_control() { ' ' } else { character };
-        let shown: String = self.text[line_start..line_end].trim_end().chars().skip(skipped).take(SHOWN).map(plain).collect();
+        let shown: String = line_text.chars().skip(skipped).take(SHOWN).map(plain).collect();
         let marked = self.text[start..self.text.floor_char_boundary(span.end.clamp(start, line_end))].chars().count();
         let margin = " ".repeat(line.to_string().len());
         let indent = " ".repeat(column - 1 - skipped);
@@ -105,6 +109,12 @@ impl<'a> Table<'a> {
     /// The same table as something else.
     pub fn named(self, what: impl Into<String>) -> Self {
         Self { what: what.into(), ..self }
+    }
+
+    /// The same table, of which something is known.
+    pub fn which(self, known: &str) -> Self {
+        let what = format!("{} ({known})", self.what);
+        self.named(what)
     }
 
     /// The table itself, if it has no keys but these. The first that is another is the fault.
@@ -213,6 +223,12 @@ impl<'a> Value<'a> {
     /// A string.
     pub fn text(self) -> Outcome<&'a str> {
         self.value.get_ref().as_str().ok_or_else(|| self.is_no("a string"))
+    }
+
+    /// The name of a file.
+    pub fn path(self) -> Outcome<&'a str> {
+        let name = self.text()?;
+        if name.len() <= MAX_PATH { Ok(name) } else { Err(self.is_no("the name of a file, at most 1024 bytes long")) }
     }
 
     /// True or false.

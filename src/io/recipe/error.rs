@@ -130,7 +130,7 @@ pub enum RecipeFault {
         message: String,
     },
     /// A colour that shows what is behind it.
-    #[error("\"{found}\" has the opacity {opacity}; a film is measured over a ground that it is known over: leave the opacity out")]
+    #[error("\"{found}\" has the opacity {opacity:.2}, but a film's colours are those of film and ground together; leave the opacity out")]
     Translucent {
         /// The text.
         found: String,

@@ -2,9 +2,9 @@
 //!
 //! | key | what it is |
 //! |---|---|
-//! | `library` | a file of paints or an array of up to 16, beside the recipe or by paths from there ([`paints`](super::paints)); default none |
+//! | `library` | a file of paints or an array of up to 16, beside the recipe or by paths from there ([own paints](super::paints)); default none |
 //! | `canvas.repeat` | columns and rows in which the material is laid side by side below the paint, at most 4096 in all; default `[1, 1]` |
-//! | `paints.NAME` | own paints, see [`paints`](super::paints) |
+//! | `paints.NAME` | [own paints](super::paints) |
 //! | `layer` | the layers, 1 to 256, **the bottom one first** |
 //!
 //! A layer:
@@ -42,7 +42,7 @@
 //! | `tiling` | columns and rows of cells that the plane is divided into, each 1 to 1000; default `[1, 1]` |
 //! | `offset` | right and up, in units of the cell's shorter edge; default `[0, 0]` |
 //! | `rotation` | counter-clockwise, in degrees; default 0 |
-//! | `size` | factor on the pattern's lengths, 0.001 to 1000; default 1 |
+//! | `size` | factor on the pattern's lengths, 0.001 to 4; default 1 |
 //!
 //! ```toml
 //! library = "my_paints.toml"
@@ -161,7 +161,7 @@ fn paints(root: &Table<'_>, folder: &Path) -> Result<Paints, Unread> {
         return Err(file.fault(RecipeFault::TooMany { found: files.len(), what: "files of paints", most: MAX_LIBRARIES }).into());
     }
     for file in files {
-        let found = paints::load(&folder.join(file.text()?)).map_err(|error| match error {
+        let found = paints::load(&folder.join(file.path()?)).map_err(|error| match error {
             IoError::Recipe(error) => Unread::Elsewhere(error),
             error => file.fault(RecipeFault::File(Box::new(error))).into(),
         })?;

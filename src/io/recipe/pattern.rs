@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     data::{Map, PatternImage},
-    io::{IoError, raster},
+    io::raster,
     model::{Pattern, Placement},
 };
 
@@ -48,13 +48,15 @@ impl<'a> Images<'a> {
 
     /// The index of an image, black and white exchanged if `invert` is set.
     fn index(&mut self, file: Value<'_>, invert: bool) -> Outcome<usize> {
-        let name = file.text()?;
+        let name = file.path()?;
         if let Some(index) = self.images.iter().position(|(image, inverted)| image.name == name && *inverted == invert) {
             return Ok(index);
         }
-        let texels: usize = self.images.iter().map(|(image, _)| image.drawn.values().len()).sum();
-        let drawn = raster::drawing(&self.folder.join(name), MAX_TEXELS - texels);
-        let drawn = drawn.map_err(|error: IoError| file.fault(RecipeFault::File(Box::new(error))))?;
+        let drawn = raster::drawing(&self.folder.join(name)).map_err(|error| file.fault(RecipeFault::File(Box::new(error))))?;
+        let texels = self.images.iter().map(|(image, _)| image.drawn.values().len()).sum::<usize>() + drawn.values().len();
+        if texels > MAX_TEXELS {
+            return Err(file.fault(RecipeFault::TooMany { found: texels, what: "texels in all images together", most: MAX_TEXELS }));
+        }
         let drawn: Map<f32> = if invert { drawn.map(|value| 1.0 - value) } else { drawn };
         self.images.push((PatternImage { name: name.to_owned(), drawn }, invert));
         Ok(self.images.len() - 1)
@@ -87,7 +89,20 @@ pub(super) fn pattern(value: Value<'_>, images: &mut Images<'_>) -> Outcome<Patt
         "noise" => Pattern::Noise { seed: seed()?, count: table.whole("count", 8)? },
         _ => Pattern::Uniform { drawn: table.number("drawn", 1.0)? },
     };
-    pattern.checked().map_err(|error| table.fault_at(error.setting, error))
+    pattern.checked().map_err(|error| table.fault_at(key(error.setting), error))
+}
+
+/// The key of what a pattern or placement calls a setting.
+fn key(setting: &'static str) -> &'static str {
+    match setting {
+        "drawn thickness" => "drawn",
+        "number of petals" => "petals",
+        "covered part" => "cover",
+        "number" | "number of clouds" => "count",
+        "painted part" => "width",
+        "number of columns" | "number of rows" => "tiling",
+        setting => setting,
+    }
 }
 
 /// Where a pattern is drawn.
@@ -103,5 +118,6 @@ pub(super) fn placement(value: Value<'_>) -> Outcome<Placement> {
         None => default.offset,
     };
     let rotation = table.number("rotation", 0.0)?.to_radians();
-    Ok(Placement { tiling, offset, rotation, size: table.number("size", default.size)? })
+    let placement = Placement { tiling, offset, rotation, size: table.number("size", default.size)? };
+    placement.checked().map_err(|error| table.fault_at(key(error.setting), error))
 }

@@ -9,7 +9,7 @@ mod table;
 
 pub use names::plain;
 
-use names::nearest;
+use names::{nearest, shortened};
 use table::{OILS, WATERCOLOURS};
 
 /// A group of pigments with one unit of thickness.
@@ -64,6 +64,39 @@ pub enum Grade {
     StandIn,
     /// C: a substitute; derived, S to an order of magnitude.
     Derived,
+}
+
+impl Grade {
+    /// All, the best known first.
+    pub const ALL: [Self; 4] = [Self::Published, Self::Measured, Self::StandIn, Self::Derived];
+
+    /// Name, as listings have it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Published => "published",
+            Self::Measured => "A",
+            Self::StandIn => "B",
+            Self::Derived => "C",
+        }
+    }
+
+    /// What it says of the coefficients.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Published => "as printed by the authors of the set",
+            Self::Measured => "a substitute: the pigment itself, K and S measured, in another binder",
+            Self::StandIn => "a substitute: a measured stand-in or mixture whose opaque colour matches the paint of that name",
+            Self::Derived => "a substitute: derived, S to an order of magnitude",
+        }
+    }
+
+    /// Whether the coefficients stand for others that are not published.
+    #[must_use]
+    pub fn is_substitute(self) -> bool {
+        self != Self::Published
+    }
 }
 
 /// A pigment of the library.
@@ -139,11 +172,11 @@ pub fn find_beside(name: &str, others: &[&str]) -> Result<&'static Pigment, Pigm
         [pigment] => Ok(pigment),
         [] => {
             let names = others.iter().map(|other| (*other).to_owned()).chain(all().map(Pigment::full_name)).collect();
-            Err(PigmentError::Unknown { name: name.to_owned(), near: quoted(nearest(name, names)) })
+            Err(PigmentError::Unknown { name: shortened(name), near: quoted(nearest(name, names)) })
         }
         _ => {
             let choices = quoted(matching.iter().map(|pigment| pigment.full_name()));
-            Err(PigmentError::Ambiguous { name: name.to_owned(), choices })
+            Err(PigmentError::Ambiguous { name: shortened(name), choices })
         }
     }
 }

@@ -9,6 +9,12 @@ pub fn plain(name: &str) -> String {
     name.chars().filter(|character| character.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
+/// A name for a message: its start, if it is longer than names are.
+pub(super) fn shortened(name: &str) -> String {
+    let start: String = name.chars().take(COMPARED).collect();
+    if start.len() < name.len() { start + "…" } else { start }
+}
+
 /// The four of `names` that take the fewest edits to become `wanted`, with or without what stands before their slash.
 pub(super) fn nearest(wanted: &str, mut names: Vec<String>) -> Vec<String> {
     let wanted: String = plain(wanted).chars().take(COMPARED).collect();
