@@ -3,9 +3,10 @@
 // Policarpo et al. 2005; thesis eq. 3.3, 3.9. Twin: reference::reconstruct.
 #import thread
 #import shade
+#import unpainted_svbrdf
 
 // [row][column], RGB in reflectance units, w = 1
-@group(0) @binding(8) var<storage, read_write> picture: array<vec4<f32>>;
+@group(0) @binding(12) var<storage, read_write> picture: array<vec4<f32>>;
 
 const SIZE: u32 = 64u;
 
@@ -16,5 +17,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
     let base = vec2(f32(texel % scene.width), f32(texel / scene.width));
-    picture[texel] = vec4(radiance_at(base), 1.0);
+    let view = scene.view.xyz;
+    if view.z < MIN_COSINE {
+        picture[texel] = vec4(0.0, 0.0, 0.0, 1.0);
+        return;
+    }
+    picture[texel] = vec4(radiance_of(base, first_hit(base, view), view, scene.light.xyz), 1.0);
 }

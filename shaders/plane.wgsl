@@ -1,6 +1,7 @@
 // The material as a plane, seen orthographically under a directional light. The vertex stage covers the plane's outline, the
 // fragment stage finds its place on the base plane and marches from there. Twin: reference::plane.
 #import shade
+#import unpainted_svbrdf
 
 struct Camera {
     // pixels, columns and rows of the picture
@@ -16,7 +17,7 @@ struct Camera {
     _pad2: u32,
 }
 
-@group(0) @binding(8) var<uniform> camera: Camera;
+@group(0) @binding(12) var<uniform> camera: Camera;
 
 // Corners of the plane, two triangles.
 @vertex
@@ -42,7 +43,8 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             let pixel = position.xy - 0.5 + vec2(column, row) / samples;
             let place = camera.origin + camera.per_column * pixel.x + camera.per_row * pixel.y;
             if all(place >= vec2(-0.5)) && all(place < last) {
-                sum += vec4(radiance_at(place), 1.0);
+                let hit = first_hit(place, scene.view.xyz);
+                sum += vec4(radiance_of(place, hit, scene.view.xyz, scene.light.xyz), 1.0);
             }
         }
     }

@@ -17,6 +17,8 @@ macro_rules! sources {
 sources! {
     /// Paint taken for a colour.
     ALPHA_BLEND = "kernels" "alpha_blend";
+    /// One more picture of a mean.
+    AVERAGE = "kernels" "average";
     /// Neighbours of a texel under a boundary rule.
     BOUNDARY = "kernels/common" "boundary";
     /// Reflectance from radiance.
@@ -91,6 +93,12 @@ sources! {
     LOBE_RESIDUAL = "kernels" "lobe_residual";
     /// Whether a sample is no radiance.
     MASKED = "kernels/common" "masked";
+    /// A mesh that wears a material.
+    MESH = "kernels/common" "mesh";
+    /// Of it, the bare part by local PCA.
+    MESH_LPCA = "shaders" "mesh_lpca";
+    /// Of it, the bare part by reflectance.
+    MESH_SVBRDF = "shaders" "mesh_svbrdf";
     /// Reflection at a paint's surface.
     MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.
@@ -159,12 +167,14 @@ sources! {
     SPECULAR_RESIDUAL = "kernels" "specular_residual";
     /// Specular reflectance per channel.
     SPECULAR_SCALE = "kernels" "specular_scale";
-    /// The maps and directions that shading reads.
-    SURFACE = "kernels/common" "surface";
     /// Radiance of a material that is fully known.
     SYNTH = "kernels" "synth";
     /// Interpolation between texels.
     TEXEL_FILTER = "kernels/common" "texel_filter";
     /// Index of a thread in a folded grid.
     THREAD = "kernels/common" "thread";
+    /// The bare part by local PCA.
+    UNPAINTED_LPCA = "kernels/common" "unpainted_lpca";
+    /// The bare part by reflectance.
+    UNPAINTED_SVBRDF = "kernels/common" "unpainted_svbrdf";
 }

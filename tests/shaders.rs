@@ -6,8 +6,9 @@ use overpaint::{
     gpu::{Access, LinkError, Source, reflect},
     wgsl,
 };
+use wgpu::ShaderStages;
 
-crate::suite! { plain: every_file_is_embedded, every_file_links_and_validates, a_circle_is_named, an_unknown_import_is_named, a_file_is_joined_once; }
+crate::suite! { plain: every_file_is_embedded, every_pass_links_and_validates, every_common_file_serves_a_pass, a_circle_is_named, an_unknown_import_is_named, a_file_is_joined_once; }
 
 fn every_file_is_embedded() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -24,18 +25,40 @@ fn every_file_is_embedded() {
     assert_eq!(files, embedded);
 }
 
-fn every_file_links_and_validates() {
-    for source in wgsl::ALL {
+/// Passes: what several share is validated as part of each that imports it, with what the pass itself gives it.
+fn passes() -> impl Iterator<Item = &'static Source> {
+    wgsl::ALL.iter().filter(|source| !source.path.starts_with("kernels/common/"))
+}
+
+fn every_pass_links_and_validates() {
+    for source in passes() {
         let text = source.link(wgsl::ALL).unwrap_or_else(|error| panic!("{error}"));
         let reflection = reflect(source.name, &text).unwrap_or_else(|error| panic!("{error}"));
-        let (uniforms, storage): (Vec<_>, Vec<_>) =
-            reflection.resources.iter().partition(|(_, resource)| resource.access == Access::Uniform);
-        assert!(storage.len() <= 8, "{}: more than WebGPU's eight storage buffers", source.name);
-        assert!(uniforms.len() <= 12, "{}: more than WebGPU's twelve uniforms", source.name);
+        for stage in [ShaderStages::COMPUTE, ShaderStages::VERTEX, ShaderStages::FRAGMENT] {
+            let reached = reflection.resources.iter().zip(&reflection.visibility).filter(|(_, visibility)| visibility.contains(stage));
+            let (uniforms, storage): (Vec<_>, Vec<_>) = reached.partition(|((_, resource), _)| resource.access == Access::Uniform);
+            assert!(storage.len() <= 8, "{}: more than WebGPU's eight storage buffers a stage", source.name);
+            assert!(uniforms.len() <= 12, "{}: more than WebGPU's twelve uniforms a stage", source.name);
+        }
         if let Some(size) = reflection.workgroup_size {
             assert!(size.iter().product::<u32>() <= 256, "{}: more than 256 invocations", source.name);
         }
     }
+}
+
+fn every_common_file_serves_a_pass() {
+    let mut served: BTreeSet<_> = passes().flat_map(Source::imports).collect();
+    loop {
+        let further: BTreeSet<_> = wgsl::ALL.iter().filter(|source| served.contains(source.name)).flat_map(Source::imports).collect();
+        let before = served.len();
+        served.extend(further);
+        if served.len() == before {
+            break;
+        }
+    }
+    let idle: Vec<_> =
+        wgsl::ALL.iter().filter(|source| source.path.starts_with("kernels/common/") && !served.contains(source.name)).collect();
+    assert!(idle.is_empty(), "no pass imports {idle:?}");
 }
 
 fn source(name: &'static str, text: &'static str) -> Source {

@@ -24,6 +24,19 @@ pub fn direction(text: &str) -> Result<Direction, String> {
     Ok(Direction::from_degrees(theta, phi))
 }
 
+/// `AZIMUTH,ELEVATION` in degrees.
+pub fn bearing(text: &str) -> Result<[f64; 2], String> {
+    let angles = text.split_once(',').and_then(|(azimuth, elevation)| Some([number(azimuth.trim()).ok()?, number(elevation.trim()).ok()?]));
+    angles
+        .filter(|[_, elevation]| (-90.0..=90.0).contains(elevation))
+        .ok_or_else(|| "expected AZIMUTH,ELEVATION in degrees, such as 30,20; ELEVATION from -90 to 90".to_owned())
+}
+
+/// Degrees from 0 to below 180.
+pub fn angle_of_view(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|angle| (0.0..=170.0).contains(angle)).ok_or_else(|| "expected an angle from 0 to 170 degrees".to_owned())
+}
+
 /// `WxH` in pixels.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));

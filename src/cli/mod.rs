@@ -15,6 +15,7 @@ mod import;
 mod info;
 mod lpca;
 mod memory;
+mod mesh;
 mod model;
 mod output;
 mod paint;

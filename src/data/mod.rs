@@ -3,6 +3,7 @@
 
 mod block;
 mod btf;
+mod camera;
 mod direction;
 mod direction_mesh;
 mod encoding;
@@ -21,6 +22,7 @@ mod shape;
 
 pub use block::Block;
 pub use btf::{Btf, BtfError, Pair};
+pub use camera::{Camera, Light, Projection, Window};
 pub use direction::Direction;
 pub use direction_mesh::{Corner, DirectionMesh};
 pub use encoding::{Encoding, RowOrder, Transfer, radiance_half};

@@ -120,7 +120,7 @@ impl Gpu {
         Ok(Buffer { raw, label: label.to_owned(), len: 1, values: PhantomData })
     }
 
-    /// A buffer that no shader binds: for copies, and so held to the size of buffers alone.
+    /// A buffer for copies, held to the size of buffers alone; shaders bind it if it is no larger than a binding.
     pub(super) fn transfer<T: GpuValue>(&self, label: &str, len: usize) -> Result<Buffer<T>, GpuError> {
         let bytes = (len.max(1) * size_of::<T>()) as u64;
         let limit = self.adapter().max_buffer;
@@ -128,7 +128,8 @@ impl Gpu {
             let adapter = self.adapter().name.clone();
             return Err(GpuError::TooLarge { label: label.to_owned(), bytes, adapter, limit, limit_name: "maxBufferSize" });
         }
-        let raw = self.allocate(label, bytes, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC, false)?;
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+        let raw = self.allocate(label, bytes, usage, false)?;
         Ok(Buffer { raw, label: label.to_owned(), len: len.max(1), values: PhantomData })
     }
 

@@ -57,6 +57,8 @@ impl Resource {
 pub struct Reflection {
     /// Its resources with their binding numbers, by number.
     pub resources: Vec<(u32, Resource)>,
+    /// The stages that reach each of them: limits are counted stage by stage.
+    pub visibility: Vec<wgpu::ShaderStages>,
     /// Invocations in a workgroup of its compute entry point, if it has one.
     pub workgroup_size: Option<[u32; 3]>,
 }
@@ -71,10 +73,10 @@ pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
     // Halves as words, by `unpack2x16float`, are in every WebGPU implementation.
     let mut validator =
         naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32);
-    validator.validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
+    let info = validator.validate(&module).map_err(|error| invalid(error.emit_to_string(text)))?;
 
     let mut resources = Vec::new();
-    for (_, global) in module.global_variables.iter() {
+    for (handle, global) in module.global_variables.iter() {
         let Some(binding) = &global.binding else { continue };
         let name = global.name.clone().unwrap_or_default();
         let access = match global.space {
@@ -93,12 +95,23 @@ pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
         };
         let fields = layout::wgsl_fields(&module, element)
             .ok_or_else(|| invalid(format!("the elements of \"{name}\" are no 32-bit scalars, vectors or structs of them")))?;
-        resources.push((binding.binding, Resource { name, access, stride, fields }));
+        let reached = module.entry_points.iter().enumerate().filter(|(entry, _)| !info.get_entry_point(*entry)[handle].is_empty());
+        let visibility = reached.fold(wgpu::ShaderStages::NONE, |stages, (_, entry)| stages | stage_of(entry.stage));
+        resources.push((binding.binding, Resource { name, access, stride, fields }, visibility));
     }
-    resources.sort_by_key(|(binding, _)| *binding);
+    resources.sort_by_key(|(binding, ..)| *binding);
+    let (resources, visibility) = resources.into_iter().map(|(binding, resource, visibility)| ((binding, resource), visibility)).unzip();
     let workgroup_size =
         module.entry_points.iter().find(|entry| entry.stage == naga::ShaderStage::Compute).map(|entry| entry.workgroup_size);
-    Ok(Reflection { resources, workgroup_size })
+    Ok(Reflection { resources, visibility, workgroup_size })
+}
+
+fn stage_of(stage: naga::ShaderStage) -> wgpu::ShaderStages {
+    match stage {
+        naga::ShaderStage::Vertex => wgpu::ShaderStages::VERTEX,
+        naga::ShaderStage::Fragment => wgpu::ShaderStages::FRAGMENT,
+        _ => wgpu::ShaderStages::COMPUTE,
+    }
 }
 
 /// Checks the host's declaration against the WGSL: the same names, and for each the same access, stride and fields.

@@ -54,7 +54,7 @@ pub(super) struct Bindings {
 
 /// Reads the shader's interface, checks the host's side against it, and builds module and layouts.
 pub(super) fn build(
-    gpu: &Gpu, source: &Source, library: &[Source], host: &[Resource], visibility: wgpu::ShaderStages,
+    gpu: &Gpu, source: &Source, library: &[Source], host: &[Resource],
 ) -> Result<(Bindings, interface::Reflection, wgpu::ShaderModule, wgpu::PipelineLayout), GpuError> {
     let text = source.link(library)?;
     let reflection = reflect(source.name, &text)?;
@@ -62,9 +62,10 @@ pub(super) fn build(
     let entries: Vec<_> = reflection
         .resources
         .iter()
-        .map(|(binding, resource)| wgpu::BindGroupLayoutEntry {
+        .zip(&reflection.visibility)
+        .map(|((binding, resource), visibility)| wgpu::BindGroupLayoutEntry {
             binding: *binding,
-            visibility,
+            visibility: *visibility,
             ty: wgpu::BindingType::Buffer {
                 ty: match resource.access {
                     Access::Uniform => wgpu::BufferBindingType::Uniform,
@@ -129,7 +130,7 @@ impl Kernel {
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let (bindings, reflection, module, layout) = build(gpu, source, library, resources, wgpu::ShaderStages::COMPUTE)?;
+        let (bindings, reflection, module, layout) = build(gpu, source, library, resources)?;
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(source.name),
             layout: Some(&layout),

@@ -7,6 +7,9 @@ use super::{Buffer, Gpu, GpuError, Recorder, Resource, Source, kernel};
 /// Format of every target: linear light, 32-bit float, premultiplied coverage in alpha.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
+/// Format of a target's depth, 0 at the near plane and 1 at the far one.
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
 /// Pixels drawn at once: with four rays a pixel and a thousand steps a ray, each of some tens of operations, a twentieth of a second
 /// at 1 TFLOP/s.
 const BAND_PIXELS: u32 = 1 << 18;
@@ -26,7 +29,7 @@ impl Raster {
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let (bindings, _, module, layout) = kernel::build(gpu, source, library, resources, wgpu::ShaderStages::VERTEX_FRAGMENT)?;
+        let (bindings, _, module, layout) = kernel::build(gpu, source, library, resources)?;
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(source.name),
             layout: Some(&layout),
@@ -37,7 +40,13 @@ impl Raster {
                 buffers: &[],
             },
             primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Less),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
             multisample: wgpu::MultisampleState::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &module,
@@ -66,6 +75,7 @@ impl Raster {
 pub struct Target {
     texture: wgpu::Texture,
     pub(super) view: wgpu::TextureView,
+    pub(super) depth: wgpu::TextureView,
     width: u32,
     height: u32,
 }
@@ -77,26 +87,30 @@ impl Target {
     /// [`GpuError::PictureSize`] if it is empty or past the adapter's texture size, or [`GpuError::OutOfMemory`].
     pub fn new(gpu: &Gpu, width: u32, height: u32) -> Result<Self, GpuError> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
-        let bytes = u64::from(width) * u64::from(height) * 16;
+        let bytes = u64::from(width) * u64::from(height) * 20;
         if !(1..=limit).contains(&width) || !(1..=limit).contains(&height) {
             return Err(GpuError::PictureSize { width, height, adapter: gpu.adapter().name.clone(), limit });
         }
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("picture"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let texture = |label: &str, format: wgpu::TextureFormat, usage: wgpu::TextureUsages| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+                view_formats: &[],
+            })
+        };
+        let depth = texture("depth", DEPTH, wgpu::TextureUsages::empty());
+        let texture = texture("picture", FORMAT, wgpu::TextureUsages::COPY_SRC);
         if block_on(scope.pop()).is_some() {
             return Err(GpuError::OutOfMemory { label: "picture".to_owned(), bytes });
         }
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Ok(Self { texture, view, width, height })
+        let [view, depth] = [&texture, &depth].map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        Ok(Self { texture, view, depth, width, height })
     }
 
     /// Records a copy of the picture into a buffer `[height][row_pixels]`, rows padded as WebGPU asks; see [`Target::unpad`].
@@ -136,7 +150,9 @@ impl Target {
         (0..height).step_by(rows as usize).map(move |top| [top, rows.min(height - top)])
     }
 
-    fn row_pixels(&self) -> usize {
+    /// Pixels of a padded row of the copy.
+    #[must_use]
+    pub fn row_pixels(&self) -> usize {
         (self.width as usize).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize / 16)
     }
 }

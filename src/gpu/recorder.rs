@@ -98,6 +98,12 @@ impl<'g> Recorder<'g> {
                     resolve_target: None,
                     ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
                 })],
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: &target.depth,
+                    // Each band is drawn once: what lies outside of it is cleared by the first, and nothing is kept.
+                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+                    stencil_ops: None,
+                }),
                 timestamp_writes: query.as_ref().map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
                     query_set,
                     beginning_of_pass_write_index: Some(*first),

@@ -1,6 +1,7 @@
 //! CPU twins of the stages in f64, from the papers, by another route than the kernels. Only tests and benches use them.
 
 mod alpha_blend;
+mod average;
 mod brdf_values;
 mod dark_samples;
 mod fft;
@@ -18,6 +19,7 @@ mod lpca_covariance;
 mod lpca_lift;
 mod lpca_project;
 mod lpca_weights;
+mod mesh;
 mod normals;
 mod pattern;
 mod pattern_image;
@@ -37,6 +39,7 @@ mod specular_scale;
 mod synth;
 
 pub use alpha_blend::alpha_blend;
+pub use average::average;
 pub use brdf_values::brdf_values;
 pub use dark_samples::dark_samples;
 pub use fft::fft;
@@ -54,6 +57,7 @@ pub use lpca_covariance::lpca_covariance;
 pub use lpca_lift::lpca_lift;
 pub use lpca_project::lpca_project;
 pub use lpca_weights::lpca_weights;
+pub use mesh::{Worn, mesh};
 pub use normals::normals;
 pub use pattern::pattern;
 pub use pattern_image::pattern_image;

@@ -40,7 +40,7 @@ pub fn plane(surface: &Surface, shot: &PlaneView, relief: Relief) -> Map<[f64; 4
                 continue;
             }
             let base = [on_plane.x + width / 2.0 - 0.5, height / 2.0 - 0.5 - on_plane.y];
-            let radiance = surface.radiance(&field, base, shot.view, shot.light, relief);
+            let radiance = surface.radiance(&field, base, shot.view.vector(), shot.light.vector(), relief);
             for (sum, value) in sum.iter_mut().zip(radiance.into_iter().chain([1.0])) {
                 *sum += value / f64::from(samples * samples);
             }

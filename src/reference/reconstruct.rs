@@ -12,6 +12,6 @@ use crate::{
 pub fn reconstruct(surface: &Surface, view: Direction, light: Direction, relief: Relief) -> Map<[f64; 3]> {
     let field = surface.field();
     Map::from_fn(surface.heights.width(), surface.heights.height(), |column, row| {
-        surface.radiance(&field, [column as f64, row as f64], view, light, relief)
+        surface.radiance(&field, [column as f64, row as f64], view.vector(), light.vector(), relief)
     })
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::relief::HeightField;
 use crate::{
-    data::{Direction, Map},
+    data::Map,
     model::{
         Boundary, Frame, PaintMethod, Relief, lafortune,
         microfacet::{ggx_specular, schlick},
@@ -40,6 +40,9 @@ pub struct Surface {
     pub method: PaintMethod,
 }
 
+/// Texels around a place and their weights.
+type Corners = [((usize, usize), f64); 4];
+
 /// Cosine below which a direction is taken for the horizon.
 const HORIZON: f64 = 0.001;
 
@@ -50,45 +53,58 @@ impl Surface {
     }
 
     /// π·L_o/E along the view ray that crosses the base plane at `base` (column, row).
-    pub(super) fn radiance(&self, field: &HeightField<'_>, base: [f64; 2], view: Direction, light: Direction, relief: Relief) -> [f64; 3] {
-        let (view, light) = (view.vector(), light.vector());
+    pub(super) fn radiance(&self, field: &HeightField<'_>, base: [f64; 2], view: DVec3, light: DVec3, relief: Relief) -> [f64; 3] {
+        let (painted, bare) = self.painted_radiance(field, base, view, light, relief);
         if view.z < HORIZON || light.z < HORIZON {
             return [0.0; 3];
         }
-        let (place, height) = if relief.displace { field.first_hit(base, view) } else { (base, field.at(base)) };
-        let visible = if relief.shadow { field.seen_share(place, height, light, relief.penumbra) } else { 1.0 };
-        let mut radiance = [0.0; 3];
-        let mut add = |weight: f64, colour: [f64; 3]| (0..3).for_each(|channel| radiance[channel] += weight * colour[channel]);
-        let at_hit = field.corners(place);
-        for (texel, weight) in at_hit {
-            let [r, g, b, coverage] = self.painted[texel];
-            match self.method {
-                PaintMethod::KubelkaMunk => add(weight * coverage, self.painted(texel, view, light, visible)),
-                PaintMethod::AlphaBlend => add(weight * coverage * light.z, [r, g, b]),
-            }
-        }
-        // Of a flat surface the reflectance moves with the relief; in a frame of its own it belongs to the place on the base plane.
-        let coverage =
-            |corners: &[((usize, usize), f64)]| corners.iter().map(|&(texel, weight)| weight * self.painted[texel][3]).sum::<f64>();
-        let normal_at = |corners: &[((usize, usize), f64)]| {
+        let (at_hit, visible) = self.met(field, base, view, light, relief);
+        let normal_at = |corners: &Corners| {
             corners.iter().map(|&(texel, weight)| weight * DVec3::from_array(self.normals[texel])).sum::<DVec3>().normalize()
         };
         let at_base = field.corners(base);
-        match self.frame {
-            Frame::Plane => {
-                for (texel, weight) in at_hit {
-                    add(weight * visible * (1.0 - self.painted[texel][3]), self.unpainted(texel, DVec3::Z, view, light, light.z));
-                }
-            }
+        // Of a flat surface the reflectance moves with the relief; in a frame of its own it belongs to the place on the base plane.
+        let (corners, normal, lit) = match self.frame {
+            Frame::Plane => (at_hit, DVec3::Z, visible * light.z),
             Frame::Texel | Frame::Seen => {
                 let (normal, seen) = if self.frame == Frame::Seen { (normal_at(&at_hit), visible) } else { (normal_at(&at_base), 1.0) };
-                let lit = (1.0 - self.ambient) * seen * normal.dot(light).max(0.0) + self.ambient * light.z;
-                for (texel, weight) in at_base {
-                    add(weight * (1.0 - coverage(&at_hit)), self.unpainted(texel, normal, view, light, lit));
-                }
+                (at_base, normal, (1.0 - self.ambient) * seen * normal.dot(light).max(0.0) + self.ambient * light.z)
             }
+        };
+        let mut radiance = painted;
+        for (texel, weight) in corners {
+            let unpainted = self.unpainted(texel, normal, view, light, lit);
+            (0..3).for_each(|channel| radiance[channel] += bare * weight * unpainted[channel]);
         }
         radiance
+    }
+
+    /// What the paint adds to it, and the share of the place that is bare.
+    pub(super) fn painted_radiance(
+        &self, field: &HeightField<'_>, base: [f64; 2], view: DVec3, light: DVec3, relief: Relief,
+    ) -> ([f64; 3], f64) {
+        if view.z < HORIZON || light.z < HORIZON {
+            return ([0.0; 3], 1.0);
+        }
+        let (at_hit, visible) = self.met(field, base, view, light, relief);
+        let (mut radiance, mut bare) = ([0.0; 3], 1.0);
+        for (texel, weight) in at_hit {
+            let [r, g, b, coverage] = self.painted[texel];
+            let paint = match self.method {
+                PaintMethod::KubelkaMunk => self.painted(texel, view, light, visible),
+                PaintMethod::AlphaBlend => [r, g, b].map(|colour| colour * light.z),
+            };
+            (0..3).for_each(|channel| radiance[channel] += weight * coverage * paint[channel]);
+            bare -= weight * coverage;
+        }
+        (radiance, bare)
+    }
+
+    /// The texels around the point that the ray meets, and the share of the light that it sees.
+    fn met(&self, field: &HeightField<'_>, base: [f64; 2], view: DVec3, light: DVec3, relief: Relief) -> (Corners, f64) {
+        let (place, height) = if relief.displace { field.first_hit(base, view) } else { (base, field.at(base)) };
+        let visible = if relief.shadow { field.seen_share(place, height, light, relief.penumbra) } else { 1.0 };
+        (field.corners(place), visible)
     }
 
     /// Lafortune et al. 1997, thesis eq. 3.3, in the frame of `normal`, times the light that is there.

@@ -1,6 +1,7 @@
 //! Host side of the compute stages, one file each.
 
 mod alpha_blend;
+mod average;
 mod brdf_values;
 mod compressed_btf;
 mod dark_samples;
@@ -41,6 +42,7 @@ mod synth;
 mod tile;
 
 pub use alpha_blend::AlphaBlend;
+pub use average::Average;
 pub use brdf_values::BrdfValues;
 pub use compressed_btf::{CompressedBtf, CompressedBtfParams};
 pub use dark_samples::DarkSamples;

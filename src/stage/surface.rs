@@ -31,34 +31,53 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// What a pass that imports `surface` declares.
-    pub(crate) fn resources() -> Vec<Resource> {
+    /// What a pass that imports `shade` declares, but for the bare part.
+    pub(crate) fn painted_resources() -> Vec<Resource> {
         let mut resources = HeightField::resources().to_vec();
-        resources.extend(["diffuse", "specular", "lobes", "painted"].map(Resource::read::<[f32; 4]>));
-        resources.push(Resource::read::<[f32; 2]>("coats"));
+        resources.extend([Resource::read::<[f32; 4]>("painted"), Resource::read::<[f32; 2]>("coats")]);
         resources
     }
 
-    /// What such a pass binds, `scene` from [`Surface::scene`].
-    pub(crate) fn binds<'a>(&'a self, scene: &'a Buffer<Scene>) -> Vec<Bind<'a>> {
+    /// What a pass that imports `unpainted_svbrdf` declares beside.
+    pub(crate) fn bare_resources() -> Vec<Resource> {
+        ["diffuse", "specular", "lobes"].map(Resource::read::<[f32; 4]>).to_vec()
+    }
+
+    /// What a pass that imports both declares.
+    pub(crate) fn resources() -> Vec<Resource> {
+        [Self::painted_resources(), Self::bare_resources()].concat()
+    }
+
+    /// What a pass with [`Self::painted_resources`] binds, `scene` from [`Surface::scene`].
+    pub(crate) fn painted_binds<'a>(&'a self, scene: &'a Buffer<Scene>) -> Vec<Bind<'a>> {
         let mut binds = self.field.binds(scene).to_vec();
-        binds.extend([
-            bind("diffuse", &self.diffuse),
-            bind("specular", &self.specular),
-            bind("lobes", &self.lobes),
-            bind("painted", &self.painted),
-            bind("coats", &self.coats),
-        ]);
+        binds.extend([bind("painted", &self.painted), bind("coats", &self.coats)]);
         binds
     }
 
-    /// The uniform block of one picture.
+    /// What one with [`Self::bare_resources`] binds.
+    pub(crate) fn bare_binds(&self) -> Vec<Bind<'_>> {
+        vec![bind("diffuse", &self.diffuse), bind("specular", &self.specular), bind("lobes", &self.lobes)]
+    }
+
+    /// What one with [`Self::resources`] binds.
+    pub(crate) fn binds<'a>(&'a self, scene: &'a Buffer<Scene>) -> Vec<Bind<'a>> {
+        [self.painted_binds(scene), self.bare_binds()].concat()
+    }
+
+    /// The uniform block of a picture under one view and one light.
     pub(crate) fn scene(&self, gpu: &Gpu, view: Direction, light: Direction, relief: Relief) -> Result<Buffer<Scene>, GpuError> {
+        gpu.uniform("scene", &self.params(relief).lit(view, light))
+    }
+
+    /// The uniform block of a picture whose views and lights differ from place to place.
+    pub(crate) fn unlit_scene(&self, gpu: &Gpu, relief: Relief) -> Result<Buffer<Scene>, GpuError> {
+        gpu.uniform("scene", &self.params(relief))
+    }
+
+    fn params(&self, relief: Relief) -> Scene {
         let texels = self.diffuse.len().max(1);
         let lobes = count((self.lobes.len() / texels).min(MAX_LOBES));
-        gpu.uniform(
-            "scene",
-            &self.field.scene(relief).lit(view, light).painted(self.method).in_frame(self.frame, lobes).with_ambient(self.ambient),
-        )
+        self.field.scene(relief).painted(self.method).in_frame(self.frame, lobes).with_ambient(self.ambient)
     }
 }

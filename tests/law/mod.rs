@@ -22,6 +22,7 @@ crate::suites! {
     lpca_edges,
     masked,
     mesh,
+    mesh_pass,
     microfacet,
     mixture,
     normals,

@@ -14,6 +14,7 @@ crate::suites! {
     lafortune_framed,
     linear_refit,
     lobe_residual,
+    mesh,
     microfacet,
     lpca_assign,
     lpca_covariance,

@@ -1,0 +1,175 @@
+// A mesh that wears a material: each fragment follows its view ray through the relief from where the ray crosses the mesh, which is the
+// base plane there (Policarpo, Oliveira, Comba 2005), and its depth is that of the point it meets. The pass that imports this
+// imports one of `unpainted_svbrdf` and `unpainted_lpca` too, for the bare part. Twin: reference::mesh.
+#import shade
+
+struct Vertex {
+    position: vec3<f32>,
+    // texture coordinates in pieces of the material, u right, v up
+    u: f32,
+    // unit vectors
+    normal: vec3<f32>,
+    v: f32,
+    tangent: vec3<f32>,
+    // 1, or -1 where the texture coordinates are mirrored: bitangent = handedness cross(normal, tangent)
+    handedness: f32,
+}
+
+struct Light {
+    // towards a light at infinity (w = 0), or its place (w = 1)
+    place: vec4<f32>,
+    // of a surface that faces it, 1 = white reads 1; of a light with a place at distance 1
+    irradiance: vec4<f32>,
+}
+
+struct Camera {
+    // rows of the matrix from world to clip coordinates
+    clip_x: vec4<f32>,
+    clip_y: vec4<f32>,
+    clip_z: vec4<f32>,
+    clip_w: vec4<f32>,
+    // the eye's place (w = 1), or the direction towards a camera of parallel rays (w = 0)
+    eye: vec4<f32>,
+    lights: u32,
+    // what is drawn: one of the OUTPUT constants
+    output: u32,
+    // 1: rays that leave the sheet of texture coordinates 0 to 1 before they meet the relief see through it
+    silhouette: u32,
+    _pad: u32,
+}
+
+const OUTPUT_RADIANCE: u32 = 0u;
+// normal of the surface met, in the world, and distance from the eye's plane
+const OUTPUT_GEOMETRY: u32 = 1u;
+// coverage of paint, its thickness in texel widths, column and row of the texel met
+const OUTPUT_PAINT: u32 = 2u;
+
+@group(0) @binding(12) var<uniform> camera: Camera;
+@group(0) @binding(13) var<storage, read> lights: array<Light>;
+@group(0) @binding(14) var<storage, read> vertices: array<Vertex>;
+// [triangle][corner]
+@group(0) @binding(15) var<storage, read> corners: array<u32>;
+
+// A view that a smooth normal turns away from, though the triangle is seen, counts as this low above the base plane.
+const LOWEST_VIEW: f32 = 0.02;
+
+struct Fragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) tangent: vec3<f32>,
+    @location(3) place: vec2<f32>,
+    @location(4) @interpolate(flat) handedness: f32,
+    // world units
+    @location(5) @interpolate(flat) texel_width: f32,
+}
+
+struct Pixel {
+    @builtin(frag_depth) depth: f32,
+    @location(0) value: vec4<f32>,
+}
+
+// Place on the plane of texels, centres at whole numbers.
+fn place_of(vertex: Vertex) -> vec2<f32> {
+    return vec2(vertex.u * f32(scene.width), -vertex.v * f32(scene.height)) - 0.5;
+}
+
+fn clip_of(position: vec3<f32>) -> vec4<f32> {
+    let p = vec4(position, 1.0);
+    return vec4(dot(camera.clip_x, p), dot(camera.clip_y, p), dot(camera.clip_z, p), dot(camera.clip_w, p));
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Fragment {
+    let triangle = index / 3u * 3u;
+    let a = vertices[corners[triangle]];
+    let b = vertices[corners[triangle + 1u]];
+    let c = vertices[corners[triangle + 2u]];
+    // World units that a texel is wide: the root of the triangle's area over that in texels.
+    let area = length(cross(b.position - a.position, c.position - a.position));
+    let ab = place_of(b) - place_of(a);
+    let ac = place_of(c) - place_of(a);
+    let texels = abs(ab.x * ac.y - ab.y * ac.x);
+    let own = vertices[corners[index]];
+    var out: Fragment;
+    out.clip = clip_of(own.position);
+    out.position = own.position;
+    out.normal = own.normal;
+    out.tangent = own.tangent;
+    out.place = place_of(own);
+    out.handedness = own.handedness;
+    out.texel_width = sqrt(area / max(texels, 1e-20));
+    return out;
+}
+
+// The frame of the base plane at a fragment: material x, y and z in the world.
+struct BaseFrame {
+    tangent: vec3<f32>,
+    bitangent: vec3<f32>,
+    normal: vec3<f32>,
+}
+
+// From the back a sheet shows the same relief, mirrored.
+fn base_frame(in: Fragment, front: bool) -> BaseFrame {
+    let outside = normalize(in.normal);
+    let tangent = normalize(in.tangent - dot(in.tangent, outside) * outside);
+    return BaseFrame(tangent, in.handedness * cross(outside, tangent), select(-outside, outside, front));
+}
+
+fn in_base(frame: BaseFrame, direction: vec3<f32>) -> vec3<f32> {
+    return vec3(dot(frame.tangent, direction), dot(frame.bitangent, direction), dot(frame.normal, direction));
+}
+
+fn world_of(frame: BaseFrame, direction: vec3<f32>) -> vec3<f32> {
+    return direction.x * frame.tangent + direction.y * frame.bitangent + direction.z * frame.normal;
+}
+
+@fragment
+fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> Pixel {
+    let frame = base_frame(in, front);
+    let towards = normalize(camera.eye.xyz - camera.eye.w * in.position);
+    var view = in_base(frame, towards);
+    view = normalize(vec3(view.xy, max(view.z, LOWEST_VIEW)));
+    let hit = first_hit(in.place, view);
+    if camera.silhouette == 1u {
+        let sheet = vec2(f32(scene.width), f32(scene.height));
+        // v runs from 0 at the lower edge up, rows from there down.
+        let inside = vec2(hit.place.x + 0.5, hit.place.y + 0.5 + sheet.y);
+        if any(inside < vec2(0.0)) || any(inside >= sheet) {
+            discard;
+        }
+    }
+    let met = in.position + towards * (hit.height * in.texel_width / view.z);
+    let clip = clip_of(met);
+    var out: Pixel;
+    out.depth = clamp(clip.z / clip.w, 0.0, 1.0);
+    switch camera.output {
+        case OUTPUT_GEOMETRY: {
+            // Of parallel rays the plane through the origin.
+            out.value = vec4(normalize(world_of(frame, normal_at(hit.place))), clip.w * camera.eye.w + dot(camera.eye.xyz, -met) * (1.0 - camera.eye.w));
+        }
+        case OUTPUT_PAINT: {
+            let cell = cell_at(hit.place);
+            let weights = weights_of(cell);
+            var coverage = 0.0;
+            for (var corner = 0u; corner < 4u; corner++) {
+                coverage += weights[corner] * painted[cell.texels[corner]].w;
+            }
+            let texel = round(hit.place);
+            let sheet = vec2(f32(scene.width), f32(scene.height));
+            out.value = vec4(coverage, hit.height, texel - sheet * floor(texel / sheet));
+        }
+        default: {
+            var radiance = vec3(0.0);
+            for (var index = 0u; index < camera.lights; index++) {
+                let light = lights[index];
+                let way = light.place.xyz - light.place.w * in.position;
+                let distance2 = mix(1.0, dot(way, way), light.place.w);
+                let toward = in_base(frame, normalize(way));
+                radiance += light.irradiance.rgb / distance2 * radiance_of(in.place, hit, view, toward);
+            }
+            out.value = vec4(radiance, 1.0);
+        }
+    }
+    return out;
+}

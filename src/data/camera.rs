@@ -1,0 +1,150 @@
+//! Cameras and lights in the world: right-handed, y up, lengths in units of the mesh.
+
+use glam::{DMat4, DVec3, DVec4, dcamera::rh, dvec3};
+
+/// How a camera projects.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Through a point.
+    Perspective {
+        /// Angle between the picture's upper and lower edge, radians.
+        field_of_view: f64,
+    },
+    /// Along parallel rays.
+    Orthographic {
+        /// Height of the picture in the world.
+        height: f64,
+    },
+}
+
+/// A camera in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Where it stands.
+    pub eye: DVec3,
+    /// What is in the middle of the picture.
+    pub target: DVec3,
+    /// What is up in the picture, as far as it is across the view.
+    pub up: DVec3,
+    /// How it projects.
+    pub projection: Projection,
+    /// Distances from the eye's plane between which something is seen.
+    pub depths: [f64; 2],
+    /// Columns and rows of the picture.
+    pub size: [u32; 2],
+}
+
+/// A rectangle of a picture, in pixels from its upper left corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// Left and upper edge.
+    pub corner: [f64; 2],
+    /// Columns and rows.
+    pub size: [f64; 2],
+}
+
+impl Camera {
+    /// A camera of `projection` that sees a ball of `radius` around `target` from (`azimuth`, `elevation`), radians: azimuth from +z to
+    /// the right, elevation towards +y. A perspective camera stands as near as it can and still see the ball whole; the height of an
+    /// orthographic one is the ball's.
+    #[must_use]
+    pub fn around(target: DVec3, radius: f64, [azimuth, elevation]: [f64; 2], projection: Projection, size: [u32; 2]) -> Self {
+        let toward = Self::bearing([azimuth, elevation]);
+        let narrow = (f64::from(size[0]) / f64::from(size[1])).min(1.0);
+        let (distance, projection) = match projection {
+            Projection::Perspective { field_of_view } => {
+                // Half of the angle across the picture's narrower side.
+                let half = (narrow * (0.5 * field_of_view).tan()).atan();
+                (radius / half.sin(), projection)
+            }
+            Projection::Orthographic { .. } => (2.0 * radius, Projection::Orthographic { height: 2.0 * radius / narrow }),
+        };
+        // At the poles any direction is up that is not the view.
+        let up = if elevation.cos().abs() < 1e-6 { dvec3(-azimuth.sin(), 0.0, -azimuth.cos()) * elevation.signum() } else { DVec3::Y };
+        Self {
+            eye: target + distance * toward,
+            target,
+            up,
+            projection,
+            depths: [(distance - radius).max(1e-3 * distance), distance + radius],
+            size,
+        }
+    }
+
+    /// Unit vector towards (`azimuth`, `elevation`), radians: azimuth from +z to the right, elevation towards +y.
+    #[must_use]
+    pub fn bearing([azimuth, elevation]: [f64; 2]) -> DVec3 {
+        dvec3(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos())
+    }
+
+    /// Unit vector from the target to the eye.
+    #[must_use]
+    pub fn toward(&self) -> DVec3 {
+        (self.eye - self.target).normalize()
+    }
+
+    /// The eye's place (w = 1), or the direction towards a camera of parallel rays (w = 0).
+    #[must_use]
+    pub fn homogeneous_eye(&self) -> DVec4 {
+        match self.projection {
+            Projection::Perspective { .. } => self.eye.extend(1.0),
+            Projection::Orthographic { .. } => self.toward().extend(0.0),
+        }
+    }
+
+    /// From the world to the clip coordinates of WebGPU of a part of the picture: x and y from -1 to 1 across `window`, depth from 0 to 1.
+    #[must_use]
+    pub fn clip_from_world(&self, window: Window) -> DMat4 {
+        let view = rh::view::look_at_mat4(self.eye, self.target, self.up);
+        let [width, height] = self.size.map(f64::from);
+        let [near, far] = self.depths;
+        let projection = match self.projection {
+            Projection::Perspective { field_of_view } => rh::proj::directx::perspective(field_of_view, width / height, near, far),
+            Projection::Orthographic { height: high } => {
+                let (x, y) = (0.5 * high * width / height, 0.5 * high);
+                rh::proj::directx::orthographic(-x, x, -y, y, near, far)
+            }
+        };
+        // From clip coordinates of the picture to those of the window.
+        let scale = dvec3(width / window.size[0], height / window.size[1], 1.0);
+        let middle = [0, 1].map(|axis| (window.corner[axis] + 0.5 * window.size[axis]) / [width, height][axis]);
+        let shift = dvec3(scale.x * (1.0 - 2.0 * middle[0]), scale.y * (2.0 * middle[1] - 1.0), 0.0);
+        DMat4::from_translation(shift) * DMat4::from_scale(scale) * projection * view
+    }
+
+    /// The ray of a place in the picture, in pixels: its origin and direction, away from the camera.
+    #[must_use]
+    pub fn ray(&self, [column, row]: [f64; 2]) -> [DVec3; 2] {
+        let forward = -self.toward();
+        let right = forward.cross(self.up).normalize();
+        let up = right.cross(forward);
+        let [width, height] = self.size.map(f64::from);
+        let (x, y) = ((2.0 * column - width) / height, 1.0 - 2.0 * row / height);
+        match self.projection {
+            Projection::Perspective { field_of_view } => {
+                let half = (0.5 * field_of_view).tan();
+                [self.eye, (forward + half * (x * right + y * up)).normalize()]
+            }
+            Projection::Orthographic { height } => [self.eye + 0.5 * height * (x * right + y * up), forward],
+        }
+    }
+}
+
+/// A light in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Light {
+    /// Far away.
+    Directional {
+        /// Unit vector towards it.
+        toward: DVec3,
+        /// Irradiance on a surface that faces it, R, G, B: under 1 a white Lambertian surface reads 1.
+        irradiance: [f64; 3],
+    },
+    /// At a place.
+    Point {
+        /// Where.
+        place: DVec3,
+        /// Irradiance at distance 1 on a surface that faces it; it falls by the square of the distance.
+        irradiance: [f64; 3],
+    },
+}

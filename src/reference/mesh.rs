@@ -1,0 +1,104 @@
+//! Twin of the mesh passes: a ray a pixel, cut with every triangle; of the points met in the relief the nearest is seen.
+
+use glam::DVec3;
+
+use super::{CompressedBtf, Surface};
+use crate::{
+    data::{Camera, Direction, Light, Map, Mesh},
+    model::{Relief, TexelSamples},
+};
+
+/// A view counts as this low above the base plane at least.
+const LOWEST_VIEW: f64 = 0.02;
+
+/// What a mesh wears.
+#[derive(Debug, Clone)]
+pub struct Worn<'a> {
+    /// The material.
+    pub surface: &'a Surface,
+    /// What its bare part is made from, if it is the local PCA.
+    pub compressed: Option<(&'a CompressedBtf<'a>, TexelSamples)>,
+    /// Which effects of the height field the picture has.
+    pub relief: Relief,
+}
+
+/// RGB (π·L_o/E) and 1 in each pixel of `camera` that shows `mesh`, 0 in the others; texture coordinates count `tiling` times.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "columns and rows of a picture and of a material")]
+pub fn mesh(mesh: &Mesh, tiling: [f64; 2], worn: &Worn<'_>, camera: &Camera, lights: &[Light]) -> Map<[f64; 4]> {
+    let field = worn.surface.field();
+    let size = [worn.surface.heights.width() as f64, worn.surface.heights.height() as f64];
+    let vector = |values: [f32; 3]| DVec3::from_array(values.map(f64::from));
+    let place = |vertex: usize| {
+        let [u, v] = mesh.texture_coordinates()[vertex].map(f64::from);
+        [u * tiling[0] * size[0] - 0.5, -v * tiling[1] * size[1] - 0.5]
+    };
+    Map::from_fn(camera.size[0] as usize, camera.size[1] as usize, |column, row| {
+        let [origin, direction] = camera.ray([column as f64 + 0.5, row as f64 + 0.5]);
+        let mut nearest = (f64::INFINITY, [0.0; 4]);
+        for triangle in mesh.triangles() {
+            let corners = triangle.map(|corner| corner as usize);
+            let [a, b, c] = corners.map(|corner| vector(mesh.positions()[corner]));
+            let across = (b - a).cross(c - a);
+            let along = across.dot(direction);
+            if along == 0.0 {
+                continue;
+            }
+            let distance = across.dot(a - origin) / along;
+            let at = origin + distance * direction;
+            // Areas of the parts that the point cuts the triangle into.
+            let shares = [(b, c), (c, a), (a, b)].map(|(from, to)| (to - from).cross(at - from).dot(across) / across.length_squared());
+            if distance <= 0.0 || shares.iter().any(|&share| share < 0.0) {
+                continue;
+            }
+            let mixed = |of: &dyn Fn(usize) -> DVec3| corners.iter().zip(shares).map(|(&corner, share)| share * of(corner)).sum::<DVec3>();
+            let outside = mixed(&|corner| vector(mesh.normals()[corner])).normalize();
+            let tangent = mixed(&|corner| {
+                let [x, y, z, _] = mesh.tangents()[corner];
+                vector([x, y, z])
+            });
+            let tangent = (tangent - tangent.dot(outside) * outside).normalize();
+            let bitangent = f64::from(mesh.tangents()[corners[0]][3]) * outside.cross(tangent);
+            let normal = if along < 0.0 { outside } else { -outside };
+            let in_base = |v: DVec3| DVec3::new(tangent.dot(v), bitangent.dot(v), normal.dot(v));
+            let mut view = in_base(-direction);
+            view.z = view.z.max(LOWEST_VIEW);
+            let view = view.normalize();
+            let places = corners.map(place);
+            let base = [0, 1].map(|axis| places.iter().zip(shares).map(|(place, share)| share * place[axis]).sum::<f64>());
+            let edge = |corner: usize| [0, 1].map(|axis| places[corner][axis] - places[0][axis]);
+            let ([x1, y1], [x2, y2]) = (edge(1), edge(2));
+            let texel_width = (across.length() / (x1 * y2 - x2 * y1).abs()).sqrt();
+            let height = if worn.relief.displace { field.first_hit(base, view).1 } else { field.at(base) };
+            let met = distance - height * texel_width / view.z;
+            if met >= nearest.0 {
+                continue;
+            }
+            let mut value = [0.0, 0.0, 0.0, 1.0];
+            for light in lights {
+                let (way, irradiance) = match *light {
+                    Light::Directional { toward, irradiance } => (toward, irradiance),
+                    Light::Point { place, irradiance } => (place - at, irradiance.map(|value| value / (place - at).length_squared())),
+                };
+                let radiance = radiance(worn, base, view, in_base(way.normalize()));
+                (0..3).for_each(|channel| value[channel] += irradiance[channel] * radiance[channel]);
+            }
+            nearest = (met, value);
+        }
+        nearest.1
+    })
+}
+
+/// π·L_o/E of the view ray through `base` under a light, both in the frame of the base plane.
+fn radiance(worn: &Worn<'_>, base: [f64; 2], view: DVec3, light: DVec3) -> [f64; 3] {
+    let field = worn.surface.field();
+    let Some((compressed, samples)) = worn.compressed else {
+        return worn.surface.radiance(&field, base, view, light, worn.relief);
+    };
+    let (painted, bare) = worn.surface.painted_radiance(&field, base, view, light, worn.relief);
+    if light.z < 0.001 {
+        return [0.0; 3];
+    }
+    let original = compressed.radiance(base, samples, Direction::from_vector(view), Direction::from_vector(light));
+    std::array::from_fn(|channel| painted[channel] + bare * original[channel])
+}

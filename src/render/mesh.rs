@@ -1,0 +1,176 @@
+//! A mesh that wears a material. Shaders `mesh_svbrdf` and `mesh_lpca`, by what the bare part is made from; twin
+//! [`reference::mesh`](crate::reference::mesh).
+//!
+//! The mesh is the base plane: rays are followed through the relief from where they cross it, in the frame of tangent, bitangent and normal
+//! there. A texel is as wide in the world as the triangle's texture coordinates make it, on the mean of both directions.
+
+use glam::DMat4;
+
+use crate::{
+    data::{Camera, Light, Mesh, Window},
+    gpu::{Bind, Buffer, Gpu, GpuError, Raster, Recorder, Resource, Target, bind},
+    gpu_struct,
+    model::{Relief, TexelSamples},
+    stage::{CompressedBtf, Scene, Surface, count, single},
+    wgsl,
+};
+
+gpu_struct! {
+    struct CameraParams {
+        clip_x: [f32; 4],
+        clip_y: [f32; 4],
+        clip_z: [f32; 4],
+        clip_w: [f32; 4],
+        eye: [f32; 4],
+        lights: u32,
+        output: u32,
+        silhouette: u32,
+        _pad: u32,
+    }
+}
+gpu_struct! {
+    struct Vertex { position: [f32; 3], u: f32, normal: [f32; 3], v: f32, tangent: [f32; 3], handedness: f32 }
+}
+gpu_struct! {
+    /// A light, as the shader has it.
+    struct LightParams { place: [f32; 4], irradiance: [f32; 4] }
+}
+
+/// What a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Output {
+    /// R, G, B in reflectance units times coverage, and coverage.
+    Radiance,
+    /// Unit normal of the surface met, in the world, and distance from the eye's plane (of parallel rays: from that through the origin).
+    Geometry,
+    /// Coverage of paint, height met in texel widths over the base plane, column and row of the texel met.
+    Paint,
+}
+
+/// What a mesh wears.
+#[derive(Debug, Clone, Copy)]
+pub struct Worn<'a> {
+    /// The material's maps.
+    pub surface: &'a Surface,
+    /// What its bare part is made from, if it is the local PCA.
+    pub compressed: Option<(&'a CompressedBtf, TexelSamples)>,
+    /// Which effects of the height field the picture has.
+    pub relief: Relief,
+    /// Whether rays that leave the sheet of texture coordinates 0 to 1 see through it.
+    pub silhouette: bool,
+}
+
+/// A mesh in adapter memory.
+#[derive(Debug)]
+pub struct MeshBuffers {
+    vertices: Buffer<Vertex>,
+    corners: Buffer<u32>,
+}
+
+impl MeshBuffers {
+    /// Uploads `mesh`, whose texture coordinates count `tiling` times.
+    ///
+    /// # Errors
+    /// [`GpuError`] if it does not fit the adapter.
+    pub fn upload(gpu: &Gpu, mesh: &Mesh, tiling: [f64; 2]) -> Result<Self, GpuError> {
+        let [across, up] = tiling.map(single);
+        let vertices: Vec<_> = (0..mesh.positions().len())
+            .map(|vertex| {
+                let [x, y, z, handedness] = mesh.tangents()[vertex];
+                let [u, v] = mesh.texture_coordinates()[vertex];
+                Vertex {
+                    position: mesh.positions()[vertex],
+                    u: u * across,
+                    normal: mesh.normals()[vertex],
+                    v: v * up,
+                    tangent: [x, y, z],
+                    handedness,
+                }
+            })
+            .collect();
+        Ok(Self { vertices: gpu.upload("vertices", &vertices)?, corners: gpu.upload("corners", mesh.triangles().as_flattened())? })
+    }
+}
+
+/// The render passes on one device.
+#[derive(Debug)]
+pub struct MeshPass {
+    svbrdf: Raster,
+    lpca: Raster,
+}
+
+impl MeshPass {
+    /// Builds the passes.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the driver refuses one.
+    pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
+        let with = |bare: Vec<Resource>| {
+            let mut resources = Surface::painted_resources();
+            resources.extend(bare);
+            resources.extend([
+                Resource::uniform::<CameraParams>("camera"),
+                Resource::read::<LightParams>("lights"),
+                Resource::read::<Vertex>("vertices"),
+                Resource::read::<u32>("corners"),
+            ]);
+            resources
+        };
+        Ok(Self {
+            svbrdf: Raster::new(gpu, &wgsl::MESH_SVBRDF, wgsl::ALL, &with(Surface::bare_resources()))?,
+            lpca: Raster::new(gpu, &wgsl::MESH_LPCA, wgsl::ALL, &with(CompressedBtf::resources()))?,
+        })
+    }
+
+    /// Draws `mesh` wearing `worn` into `target`, which shows the part `window` of the camera's picture.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the adapter is out of memory.
+    pub fn draw(
+        &self, recorder: &mut Recorder<'_>, mesh: &MeshBuffers, worn: Worn<'_>, camera: &Camera, window: Window, lights: &[Light],
+        output: Output, target: &Target,
+    ) -> Result<(), GpuError> {
+        let gpu = recorder.gpu();
+        let scene: Buffer<Scene> = worn.surface.unlit_scene(gpu, worn.relief)?;
+        let params = CameraParams {
+            lights: count(lights.len()),
+            output: output as u32,
+            silhouette: worn.silhouette.into(),
+            eye: camera.homogeneous_eye().as_vec4().to_array(),
+            ..with_rows(camera.clip_from_world(window))
+        };
+        let camera = gpu.uniform("camera", &params)?;
+        let lights = gpu.upload("lights", &lights.iter().map(LightParams::from).collect::<Vec<_>>())?;
+        let mut binds = worn.surface.painted_binds(&scene);
+        binds.extend([bind("camera", &camera), bind("lights", &lights), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)]);
+        let vertices = count(mesh.corners.len());
+        match worn.compressed {
+            None => {
+                binds.extend(worn.surface.bare_binds());
+                recorder.draw(&self.svbrdf, &binds, vertices, target);
+            }
+            Some((btf, texel_samples)) => {
+                let params = btf.params(gpu, texel_samples)?;
+                binds.extend::<Vec<Bind<'_>>>(btf.binds(&params));
+                recorder.draw(&self.lpca, &binds, vertices, target);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn with_rows(clip_from_world: DMat4) -> CameraParams {
+    let [clip_x, clip_y, clip_z, clip_w] = [0, 1, 2, 3].map(|row| clip_from_world.row(row).as_vec4().to_array());
+    CameraParams { clip_x, clip_y, clip_z, clip_w, ..Default::default() }
+}
+
+impl From<&Light> for LightParams {
+    fn from(light: &Light) -> Self {
+        let (place, irradiance) = match *light {
+            Light::Directional { toward, irradiance } => (toward.extend(0.0), irradiance),
+            Light::Point { place, irradiance } => (place.extend(1.0), irradiance),
+        };
+        let [r, g, b] = irradiance.map(single);
+        Self { place: place.as_vec4().to_array(), irradiance: [r, g, b, 0.0] }
+    }
+}
