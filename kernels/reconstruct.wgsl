@@ -22,5 +22,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         picture[texel] = vec4(0.0, 0.0, 0.0, 1.0);
         return;
     }
-    picture[texel] = vec4(radiance_of(base, first_hit(base, view), view, scene.light.xyz), 1.0);
+    picture[texel] = vec4(radiance_of(sight_of(base, first_hit(base, view), 0u), view, scene.light.xyz), 1.0);
 }

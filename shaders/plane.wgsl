@@ -44,7 +44,7 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             let place = camera.origin + camera.per_column * pixel.x + camera.per_row * pixel.y;
             if all(place >= vec2(-0.5)) && all(place < last) {
                 let hit = first_hit(place, scene.view.xyz);
-                sum += vec4(radiance_of(place, hit, scene.view.xyz, scene.light.xyz), 1.0);
+                sum += vec4(radiance_of(sight_of(place, hit, 0u), scene.view.xyz, scene.light.xyz), 1.0);
             }
         }
     }

@@ -95,6 +95,10 @@ sources! {
     MASKED = "kernels/common" "masked";
     /// A mesh that wears a material.
     MESH = "kernels/common" "mesh";
+    /// Shadow of a mesh on itself.
+    MESH_SHADOW = "kernels/common" "mesh_shadow";
+    /// Vertices of a mesh.
+    MESH_VERTICES = "kernels/common" "mesh_vertices";
     /// Of it, the bare part by local PCA.
     MESH_LPCA = "shaders" "mesh_lpca";
     /// Of it, the bare part by reflectance.
@@ -103,6 +107,8 @@ sources! {
     MICROFACET = "kernels/common" "microfacet";
     /// Slopes of a surface that goes on mirrored.
     MIRROR_SLOPES = "kernels" "mirror_slopes";
+    /// The next coarser level of paint.
+    MINIFY = "kernels" "minify";
     /// Value noise.
     NOISE = "kernels/common" "noise";
     /// Normals of a height field.
@@ -159,6 +165,8 @@ sources! {
     SHADING = "kernels" "shading";
     /// The frame of a normal.
     SHADING_FRAME = "kernels/common" "shading_frame";
+    /// Depth of a mesh as a light sees it.
+    SHADOW = "shaders" "shadow";
     /// Slopes of normals.
     SLOPES = "kernels" "slopes";
     /// Sums of rows of slopes.

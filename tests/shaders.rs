@@ -36,9 +36,11 @@ fn every_pass_links_and_validates() {
         let reflection = reflect(source.name, &text).unwrap_or_else(|error| panic!("{error}"));
         for stage in [ShaderStages::COMPUTE, ShaderStages::VERTEX, ShaderStages::FRAGMENT] {
             let reached = reflection.resources.iter().zip(&reflection.visibility).filter(|(_, visibility)| visibility.contains(stage));
-            let (uniforms, storage): (Vec<_>, Vec<_>) = reached.partition(|((_, resource), _)| resource.access == Access::Uniform);
-            assert!(storage.len() <= 8, "{}: more than WebGPU's eight storage buffers a stage", source.name);
-            assert!(uniforms.len() <= 12, "{}: more than WebGPU's twelve uniforms a stage", source.name);
+            let accesses: Vec<_> = reached.map(|((_, resource), _)| resource.access).collect();
+            let count = |of: &[Access]| accesses.iter().filter(|access| of.contains(access)).count();
+            let (uniforms, storage) = (count(&[Access::Uniform]), count(&[Access::Read, Access::ReadWrite]));
+            assert!(storage <= 8, "{}: more than WebGPU's eight storage buffers a stage", source.name);
+            assert!(uniforms <= 12, "{}: more than WebGPU's twelve uniforms a stage", source.name);
         }
         if let Some(size) = reflection.workgroup_size {
             assert!(size.iter().product::<u32>() <= 256, "{}: more than 256 invocations", source.name);

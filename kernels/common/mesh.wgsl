@@ -2,25 +2,8 @@
 // base plane there (Policarpo, Oliveira, Comba 2005), and its depth is that of the point it meets. The pass that imports this
 // imports one of `unpainted_svbrdf` and `unpainted_lpca` too, for the bare part. Twin: reference::mesh.
 #import shade
-
-struct Vertex {
-    position: vec3<f32>,
-    // texture coordinates in pieces of the material, u right, v up
-    u: f32,
-    // unit vectors
-    normal: vec3<f32>,
-    v: f32,
-    tangent: vec3<f32>,
-    // 1, or -1 where the texture coordinates are mirrored: bitangent = handedness cross(normal, tangent)
-    handedness: f32,
-}
-
-struct Light {
-    // towards a light at infinity (w = 0), or its place (w = 1)
-    place: vec4<f32>,
-    // of a surface that faces it, 1 = white reads 1; of a light with a place at distance 1
-    irradiance: vec4<f32>,
-}
+#import mesh_shadow
+#import mesh_vertices
 
 struct Camera {
     // rows of the matrix from world to clip coordinates
@@ -35,7 +18,14 @@ struct Camera {
     output: u32,
     // 1: rays that leave the sheet of texture coordinates 0 to 1 before they meet the relief see through it
     silhouette: u32,
-    _pad: u32,
+    // levels of `painted`
+    levels: u32,
+    // rays across a pixel, and down it, at most: where it covers several texels it has as many, up to this
+    rays: u32,
+    // how wide a part of a pixel the picture stands for, of one whose pixels are means of several pictures
+    footprint: f32,
+    _pad0: u32,
+    _pad1: u32,
 }
 
 const OUTPUT_RADIANCE: u32 = 0u;
@@ -45,10 +35,6 @@ const OUTPUT_GEOMETRY: u32 = 1u;
 const OUTPUT_PAINT: u32 = 2u;
 
 @group(0) @binding(12) var<uniform> camera: Camera;
-@group(0) @binding(13) var<storage, read> lights: array<Light>;
-@group(0) @binding(14) var<storage, read> vertices: array<Vertex>;
-// [triangle][corner]
-@group(0) @binding(15) var<storage, read> corners: array<u32>;
 
 // A view that a smooth normal turns away from, though the triangle is seen, counts as this low above the base plane.
 const LOWEST_VIEW: f32 = 0.02;
@@ -124,8 +110,35 @@ fn world_of(frame: BaseFrame, direction: vec3<f32>) -> vec3<f32> {
     return direction.x * frame.tangent + direction.y * frame.bitangent + direction.z * frame.normal;
 }
 
+// Radiance towards the camera of the ray through a place of the base plane.
+fn seen_radiance(in: Fragment, frame: BaseFrame, base: vec2<f32>, hit: Hit, level: u32, view: vec3<f32>) -> vec3<f32> {
+    let sight = sight_of(base, hit, level);
+    var radiance = vec3(0.0);
+    for (var index = 0u; index < camera.lights; index++) {
+        let light = lights[index];
+        let way = light.place.xyz - light.place.w * in.position;
+        let toward = in_base(frame, normalize(way));
+        if toward.z < MIN_COSINE || !shines(light, -way) {
+            continue;
+        }
+        let irradiance = light.irradiance.rgb / select(1.0, dot(way, way), light.place.w == 1.0);
+        let reached = mesh_visibility(light, in.position, frame.normal);
+        if reached > 0.0 {
+            let visible = visibility(hit, toward);
+            var seen = bare_part(sight, visible, view, toward);
+            if light.bare_only == 0u {
+                seen += painted_part(sight, visible, view, toward);
+            }
+            radiance += reached * irradiance * seen;
+        }
+    }
+    return radiance;
+}
+
 @fragment
 fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> Pixel {
+    let across = camera.footprint * dpdx(in.place);
+    let down = camera.footprint * dpdy(in.place);
     let frame = base_frame(in, front);
     let towards = normalize(camera.eye.xyz - camera.eye.w * in.position);
     var view = in_base(frame, towards);
@@ -146,29 +159,33 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> Pixel {
     switch camera.output {
         case OUTPUT_GEOMETRY: {
             // Of parallel rays the plane through the origin.
-            out.value = vec4(normalize(world_of(frame, normal_at(hit.place))), clip.w * camera.eye.w + dot(camera.eye.xyz, -met) * (1.0 - camera.eye.w));
+            let distance = select(-dot(camera.eye.xyz, met), clip.w, camera.eye.w == 1.0);
+            out.value = vec4(normalize(world_of(frame, normal_at(hit.place))), distance);
         }
         case OUTPUT_PAINT: {
-            let cell = cell_at(hit.place);
-            let weights = weights_of(cell);
-            var coverage = 0.0;
-            for (var corner = 0u; corner < 4u; corner++) {
-                coverage += weights[corner] * painted[cell.texels[corner]].w;
-            }
+            let coverage = dot(sight_of(in.place, hit, 0u).covered, vec4(1.0));
             let texel = round(hit.place);
             let sheet = vec2(f32(scene.width), f32(scene.height));
             out.value = vec4(coverage, hit.height, texel - sheet * floor(texel / sheet));
         }
         default: {
-            var radiance = vec3(0.0);
-            for (var index = 0u; index < camera.lights; index++) {
-                let light = lights[index];
-                let way = light.place.xyz - light.place.w * in.position;
-                let distance2 = mix(1.0, dot(way, way), light.place.w);
-                let toward = in_base(frame, normalize(way));
-                radiance += light.irradiance.rgb / distance2 * radiance_of(in.place, hit, view, toward);
+            // Texels that the pixel covers where it covers most, spread over its rays; what a ray still covers is for the level.
+            let texels = max(length(across), length(down));
+            let rays = clamp(ceil(texels), 1.0, f32(camera.rays));
+            let level = u32(clamp(round(log2(texels / rays)), 0.0, f32(camera.levels - 1u)));
+            var sum = vec3(0.0);
+            for (var row = 0.5; row < rays; row += 1.0) {
+                for (var column = 0.5; column < rays; column += 1.0) {
+                    let base = in.place + (column / rays - 0.5) * across + (row / rays - 0.5) * down;
+                    // A lone ray is the one that has been followed.
+                    var own = hit;
+                    if rays > 1.0 {
+                        own = first_hit(base, view);
+                    }
+                    sum += seen_radiance(in, frame, base, own, level, view);
+                }
             }
-            out.value = vec4(radiance, 1.0);
+            out.value = vec4(sum / (rays * rays), 1.0);
         }
     }
     return out;

@@ -33,17 +33,21 @@ struct Hit {
 }
 
 fn cell_at(place: vec2<f32>) -> Cell {
+    return cell_of(place, vec2(scene.width, scene.height), 0u);
+}
+
+// The same on a plane of `size` that begins at `begin`.
+fn cell_of(place: vec2<f32>, size: vec2<u32>, begin: u32) -> Cell {
     let corner = floor(place);
-    let inside = vec2(f32(scene.width), f32(scene.height)) - 1.0;
-    if all(corner >= vec2(0.0)) && all(corner < inside) {
+    if all(corner >= vec2(0.0)) && all(corner < vec2<f32>(size) - 1.0) {
         // Most places need no boundary, whose remainders cost more than the rest of a step.
-        let texel = u32(corner.y) * scene.width + u32(corner.x);
-        return Cell(vec4(texel, texel + 1u, texel + scene.width, texel + scene.width + 1u), place - corner);
+        let texel = begin + u32(corner.y) * size.x + u32(corner.x);
+        return Cell(vec4(texel, texel + 1u, texel + size.x, texel + size.x + 1u), place - corner);
     }
-    let left = wrap(i32(corner.x), scene.width, scene.boundary);
-    let right = wrap(i32(corner.x) + 1, scene.width, scene.boundary);
-    let upper = wrap(i32(corner.y), scene.height, scene.boundary) * scene.width;
-    let lower = wrap(i32(corner.y) + 1, scene.height, scene.boundary) * scene.width;
+    let left = wrap(i32(corner.x), size.x, scene.boundary);
+    let right = wrap(i32(corner.x) + 1, size.x, scene.boundary);
+    let upper = begin + wrap(i32(corner.y), size.y, scene.boundary) * size.x;
+    let lower = begin + wrap(i32(corner.y) + 1, size.y, scene.boundary) * size.x;
     return Cell(vec4(upper + left, upper + right, lower + left, lower + right), place - corner);
 }
 

@@ -3,15 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use glam::DVec3;
 
-use super::{CliError, arguments, model::Model, session::Session};
+use super::{CliError, arguments, model::Model};
 use crate::{
-    data::{Camera, Light, Map, Material, Mesh, Projection, Shape},
+    data::{Camera, Light, Mesh, MeshView, Projection, Sampling, Shape},
     io,
-    model::{Appearance, Relief, TexelSamples},
-    pipeline::{Renderer, Studio, Subject},
-    render::{Output, Worn},
+    model::TexelSamples,
 };
 
 /// A mesh that wears the material.
@@ -49,7 +46,7 @@ const SUN: [f64; 2] = [-40.0, 50.0];
 
 impl MeshArguments {
     /// The mesh as typed, read from its file, if there is one. What was made up for it is told on stderr.
-    pub fn mesh(&self) -> Result<Option<Mesh>, CliError> {
+    fn mesh(&self) -> Result<Option<Mesh>, CliError> {
         let Some(path) = &self.mesh else { return Ok(None) };
         if let Some(shape) = Shape::ALL.into_iter().find(|shape| path.as_os_str() == shape.name()) {
             return Ok(Some(shape.mesh()));
@@ -61,32 +58,22 @@ impl MeshArguments {
         Ok(Some(loaded.mesh))
     }
 
-    /// `mesh` wearing `material`, `size` in pixels.
-    pub fn picture(&self, mesh: &Mesh, material: &Material, size: [u32; 2], session: &Session) -> Result<Map<[f32; 4]>, CliError> {
-        let (studio, renderer) = (Studio::new(&session.gpu)?, Renderer::new(&session.gpu)?);
-        let surface = studio.surface(material, &session.progress)?;
-        let compressed = match self.unpainted {
-            Model::Svbrdf => None,
-            Model::Lpca => Some(studio.subject(material, Appearance::Lpca { texel_samples: self.texel_samples }, &session.progress)?),
-        };
-        let compressed = match &compressed {
-            Some(Subject::Compressed { btf, texel_samples }) => Some((btf.as_ref(), *texel_samples)),
-            _ => None,
-        };
-        let worn = Worn { surface: &surface, compressed, relief: Relief::default(), silhouette: false };
-
-        let [low, high] = mesh.bounds().map(|corner| DVec3::from_array(corner.map(f64::from)));
+    /// How the mesh is looked at, `size` in pixels, if there is one.
+    pub fn view(&self, size: [u32; 2]) -> Result<Option<MeshView>, CliError> {
+        let Some(mesh) = self.mesh()? else { return Ok(None) };
         let projection = match self.angle_of_view {
             0.0 => Projection::Orthographic { height: 1.0 },
             degrees => Projection::Perspective { field_of_view: degrees.to_radians() },
         };
-        let radius =
-            mesh.positions().iter().map(|&place| DVec3::from_array(place.map(f64::from)).distance(0.5 * (low + high))).fold(0.0, f64::max);
-        let camera = Camera::around(0.5 * (low + high), radius, self.camera.map(f64::to_radians), projection, size);
+        let (center, radius) = mesh.ball();
+        let camera = Camera::around(center, radius, self.camera.map(f64::to_radians), projection, size);
         let suns = if self.sun.is_empty() { &[SUN][..] } else { &self.sun };
         let sun = |bearing: &[f64; 2]| Light::Directional { toward: Camera::bearing(bearing.map(f64::to_radians)), irradiance: [1.0; 3] };
-        let lights: Vec<_> = suns.iter().map(sun).collect();
-        let mesh = renderer.upload(mesh, [self.tiling; 2])?;
-        Ok(renderer.picture(&mesh, worn, &camera, &lights, Output::Radiance, self.spp, &session.progress)?)
+        Ok(Some(MeshView {
+            tiling: [self.tiling; 2],
+            unpainted: (self.unpainted == Model::Lpca).then_some(self.texel_samples),
+            sampling: Sampling { pictures: self.spp, ..Sampling::default() },
+            ..MeshView::new(mesh, camera, suns.iter().map(sun).collect())
+        }))
     }
 }

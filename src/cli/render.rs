@@ -9,7 +9,8 @@ use crate::{
     data::{Direction, PlaneView},
     io,
     model::Relief,
-    pipeline::Studio,
+    pipeline::{Renderer, Studio},
+    render::Output,
 };
 
 /// Show a material as a plane in space or on a mesh, bare or painted.
@@ -46,16 +47,20 @@ impl Render {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         let painting = self.paint.painting()?;
         output::check_file(&self.output)?;
-        let mesh = self.mesh.mesh()?;
+        let view = self.mesh.view(self.size)?;
         let mut material = io::material::load(&self.material)?;
         let session = session.open()?;
         if let Some(painting) = painting {
             material = painting.on(&material, &session)?;
         }
-        let picture = match &mesh {
-            Some(mesh) => self.mesh.picture(mesh, &material, self.size, &session)?,
+        let studio = Studio::new(&session.gpu)?;
+        let picture = match &view {
+            Some(view) => {
+                let renderer = Renderer::new(&session.gpu)?;
+                let dressed = renderer.dress(&studio, view, &material, &session.progress)?;
+                renderer.picture(&dressed, &view.camera, Output::Radiance, &session.progress)?
+            }
             None => {
-                let studio = Studio::new(&session.gpu)?;
                 let surface = studio.surface(&material, &session.progress)?;
                 let shot = PlaneView::new(self.view, self.light, self.size);
                 studio.render(&surface, &shot, Relief::default(), &session.progress)?

@@ -44,6 +44,12 @@ pub struct Window {
 }
 
 impl Camera {
+    /// All of the picture.
+    #[must_use]
+    pub fn whole(&self) -> Window {
+        Window { corner: [0.0; 2], size: self.size.map(f64::from) }
+    }
+
     /// A camera of `projection` that sees a ball of `radius` around `target` from (`azimuth`, `elevation`), radians: azimuth from +z to
     /// the right, elevation towards +y. A perspective camera stands as near as it can and still see the ball whole; the height of an
     /// orthographic one is the ball's.
@@ -147,4 +153,64 @@ pub enum Light {
         /// Irradiance at distance 1 on a surface that faces it; it falls by the square of the distance.
         irradiance: [f64; 3],
     },
+}
+
+/// A part of a light's surroundings, as its shadow map sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShadowView {
+    /// What it sees, as wide as high.
+    pub camera: Camera,
+    /// The side of a cube around the light's place that it looks through, 0 to 5 for +x, -x, +y, -y, +z, -z; none if it sees all that the
+    /// light shines on.
+    pub side: Option<u32>,
+    /// Width and height of the picture at distance 1 of a light at a place, anywhere of one far away.
+    pub width: f64,
+}
+
+impl Light {
+    /// What the maps have to show of a ball, `side` texels across each: all of it in one, or, from a place in the ball or near it, through the
+    /// sides of a cube.
+    #[must_use]
+    pub fn shadow_views(&self, center: DVec3, radius: f64, side: u32) -> Vec<ShadowView> {
+        let size = [side; 2];
+        match *self {
+            Self::Directional { toward, .. } => {
+                let projection = Projection::Orthographic { height: 2.0 * radius };
+                let depths = [radius, 3.0 * radius];
+                let camera = Camera {
+                    eye: center + 2.0 * radius * toward,
+                    target: center,
+                    up: toward.any_orthogonal_vector(),
+                    projection,
+                    depths,
+                    size,
+                };
+                vec![ShadowView { camera, side: None, width: 2.0 * radius }]
+            }
+            Self::Point { place, .. } => {
+                let distance = place.distance(center);
+                if distance > 1.2 * radius {
+                    let half = (radius / distance).asin();
+                    let projection = Projection::Perspective { field_of_view: 2.0 * half };
+                    let depths = [distance - radius, distance + radius];
+                    let up = (center - place).any_orthogonal_vector();
+                    let camera = Camera { eye: place, target: center, up, projection, depths, size };
+                    return vec![ShadowView { camera, side: None, width: 2.0 * half.tan() }];
+                }
+                // A few texels more than a right angle: averages at an edge reach beyond it.
+                let half = 1.0 + 8.0 / f64::from(side);
+                let projection = Projection::Perspective { field_of_view: 2.0 * half.atan() };
+                let depths = [1e-3 * radius, distance + radius];
+                [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z]
+                    .into_iter()
+                    .zip(0..)
+                    .map(|(forward, number)| {
+                        let up = forward.any_orthogonal_vector();
+                        let camera = Camera { eye: place, target: place + forward, up, projection, depths, size };
+                        ShadowView { camera, side: Some(number), width: 2.0 * half }
+                    })
+                    .collect()
+            }
+        }
+    }
 }

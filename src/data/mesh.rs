@@ -171,6 +171,15 @@ impl Mesh {
         bounds(&self.positions)
     }
 
+    /// Center and radius of a ball around the mesh, centred in its bounds.
+    #[must_use]
+    pub fn ball(&self) -> (DVec3, f64) {
+        let vector = |place: [f32; 3]| DVec3::from_array(place.map(f64::from));
+        let [low, high] = self.bounds().map(vector);
+        let center = 0.5 * (low + high);
+        (center, self.positions.iter().map(|&place| vector(place).distance(center)).fold(0.0, f64::max))
+    }
+
     /// Sum of the areas of all triangles.
     #[must_use]
     pub fn area(&self) -> f64 {

@@ -13,18 +13,22 @@ pub enum Access {
     Read,
     /// `var<storage, read_write>`: an array that is written.
     ReadWrite,
+    /// `texture_2d_array<f32>`: pictures that are only read.
+    Layers,
+    /// `texture_depth_2d_array`: depths that are only read.
+    DepthLayers,
 }
 
-/// One buffer that a shader binds.
+/// One buffer or texture that a shader binds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resource {
     /// The variable's name in the WGSL.
     pub name: String,
     /// How it is reached.
     pub access: Access,
-    /// Bytes of one element (of the struct itself for a uniform).
+    /// Bytes of one element (of the struct itself for a uniform); 0 of a texture.
     pub stride: usize,
-    /// The element's fields.
+    /// The element's fields; none of a texture.
     pub fields: Vec<Field>,
 }
 
@@ -49,6 +53,18 @@ impl Resource {
     #[must_use]
     pub fn read_write<T: GpuValue>(name: &str) -> Self {
         Self::of::<T>(name, Access::ReadWrite)
+    }
+
+    /// A `texture_2d_array<f32>`.
+    #[must_use]
+    pub fn layers(name: &str) -> Self {
+        Self { name: name.to_owned(), access: Access::Layers, stride: 0, fields: Vec::new() }
+    }
+
+    /// A `texture_depth_2d_array`.
+    #[must_use]
+    pub fn depth_layers(name: &str) -> Self {
+        Self { name: name.to_owned(), access: Access::DepthLayers, stride: 0, fields: Vec::new() }
     }
 }
 
@@ -83,7 +99,9 @@ pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
             naga::AddressSpace::Uniform => Access::Uniform,
             naga::AddressSpace::Storage { access } if access.contains(naga::StorageAccess::STORE) => Access::ReadWrite,
             naga::AddressSpace::Storage { .. } => Access::Read,
-            _ => return Err(invalid(format!("\"{name}\" is neither a uniform nor a storage buffer"))),
+            naga::AddressSpace::Handle => texture_access(&module.types[global.ty].inner)
+                .ok_or_else(|| invalid(format!("\"{name}\" is neither texture_2d_array<f32> nor texture_depth_2d_array")))?,
+            _ => return Err(invalid(format!("\"{name}\" is neither a uniform, a storage buffer nor a texture"))),
         };
         if binding.group != 0 {
             return Err(invalid(format!("\"{name}\" is in group {}; everything is bound in group 0", binding.group)));
@@ -93,8 +111,11 @@ pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
             naga::TypeInner::Struct { span, .. } => (global.ty, span as usize),
             _ => (global.ty, 0),
         };
-        let fields = layout::wgsl_fields(&module, element)
-            .ok_or_else(|| invalid(format!("the elements of \"{name}\" are no 32-bit scalars, vectors or structs of them")))?;
+        let fields = match access {
+            Access::Layers | Access::DepthLayers => Vec::new(),
+            _ => layout::wgsl_fields(&module, element)
+                .ok_or_else(|| invalid(format!("the elements of \"{name}\" are no 32-bit scalars, vectors or structs of them")))?,
+        };
         let reached = module.entry_points.iter().enumerate().filter(|(entry, _)| !info.get_entry_point(*entry)[handle].is_empty());
         let visibility = reached.fold(wgpu::ShaderStages::NONE, |stages, (_, entry)| stages | stage_of(entry.stage));
         resources.push((binding.binding, Resource { name, access, stride, fields }, visibility));
@@ -104,6 +125,18 @@ pub fn reflect(name: &str, text: &str) -> Result<Reflection, GpuError> {
     let workgroup_size =
         module.entry_points.iter().find(|entry| entry.stage == naga::ShaderStage::Compute).map(|entry| entry.workgroup_size);
     Ok(Reflection { resources, visibility, workgroup_size })
+}
+
+/// The kinds of texture that this layer binds.
+fn texture_access(texture: &naga::TypeInner) -> Option<Access> {
+    match *texture {
+        naga::TypeInner::Image { dim: naga::ImageDimension::D2, arrayed: true, class } => match class {
+            naga::ImageClass::Sampled { kind: naga::ScalarKind::Float, multi: false } => Some(Access::Layers),
+            naga::ImageClass::Depth { multi: false } => Some(Access::DepthLayers),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 fn stage_of(stage: naga::ShaderStage) -> wgpu::ShaderStages {

@@ -4,20 +4,38 @@ use std::num::NonZeroU64;
 
 use pollster::block_on;
 
-use super::{Access, Buffer, Gpu, GpuError, GpuValue, Resource, Source, interface, reflect};
+use super::{Access, Buffer, DepthLayers, Gpu, GpuError, GpuValue, Layers, Resource, Source, interface, reflect};
 
-/// A buffer bound to a name for one dispatch.
+/// A buffer or texture bound to a name for one dispatch.
 #[derive(Debug, Clone, Copy)]
 pub struct Bind<'a> {
     name: &'a str,
-    raw: &'a wgpu::Buffer,
-    stride: usize,
+    bound: Bound<'a>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Bound<'a> {
+    /// And the bytes of an element.
+    Buffer(&'a wgpu::Buffer, usize),
+    Texture(&'a wgpu::TextureView, Access),
 }
 
 /// Binds `buffer` to the WGSL variable `name`.
 #[must_use]
 pub fn bind<'a, T: GpuValue>(name: &'a str, buffer: &'a Buffer<T>) -> Bind<'a> {
-    Bind { name, raw: &buffer.raw, stride: size_of::<T>() }
+    Bind { name, bound: Bound::Buffer(&buffer.raw, size_of::<T>()) }
+}
+
+/// Binds `layers` to the WGSL variable `name`.
+#[must_use]
+pub fn bind_layers<'a>(name: &'a str, layers: &'a Layers) -> Bind<'a> {
+    Bind { name, bound: Bound::Texture(&layers.view, Access::Layers) }
+}
+
+/// Binds `depths` to the WGSL variable `name`.
+#[must_use]
+pub fn bind_depth_layers<'a>(name: &'a str, depths: &'a DepthLayers) -> Bind<'a> {
+    Bind { name, bound: Bound::Texture(&depths.view, Access::DepthLayers) }
 }
 
 /// How many threads a dispatch needs.
@@ -66,15 +84,7 @@ pub(super) fn build(
         .map(|((binding, resource), visibility)| wgpu::BindGroupLayoutEntry {
             binding: *binding,
             visibility: *visibility,
-            ty: wgpu::BindingType::Buffer {
-                ty: match resource.access {
-                    Access::Uniform => wgpu::BufferBindingType::Uniform,
-                    Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
-                    Access::ReadWrite => wgpu::BufferBindingType::Storage { read_only: false },
-                },
-                has_dynamic_offset: false,
-                min_binding_size: NonZeroU64::new(resource.stride as u64),
-            },
+            ty: binding_type(resource),
             count: None,
         })
         .collect();
@@ -91,9 +101,23 @@ pub(super) fn build(
     Ok((bindings, reflection, module, pipeline_layout))
 }
 
+fn binding_type(resource: &Resource) -> wgpu::BindingType {
+    let buffer =
+        |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: NonZeroU64::new(resource.stride as u64) };
+    let texture =
+        |sample_type| wgpu::BindingType::Texture { sample_type, view_dimension: wgpu::TextureViewDimension::D2Array, multisampled: false };
+    match resource.access {
+        Access::Uniform => buffer(wgpu::BufferBindingType::Uniform),
+        Access::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+        Access::ReadWrite => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
+        Access::Layers => texture(wgpu::TextureSampleType::Float { filterable: false }),
+        Access::DepthLayers => texture(wgpu::TextureSampleType::Depth),
+    }
+}
+
 impl Bindings {
     /// # Panics
-    /// If a name is missing, unknown, or bound to elements of another size: the host's bug.
+    /// If a name is missing, unknown, or bound to another kind of thing or to elements of another size: the host's bug.
     pub(super) fn group(&self, gpu: &Gpu, binds: &[Bind<'_>]) -> wgpu::BindGroup {
         let name = self.name;
         for bind in binds {
@@ -106,8 +130,17 @@ impl Bindings {
                 let Some(bind) = binds.iter().find(|bind| bind.name == resource.name) else {
                     panic!("{name}: \"{}\" is not bound", resource.name)
                 };
-                assert_eq!(bind.stride, resource.stride, "{name}: bytes of an element of \"{}\"", resource.name);
-                wgpu::BindGroupEntry { binding: *binding, resource: bind.raw.as_entire_binding() }
+                let resource = match bind.bound {
+                    Bound::Buffer(raw, stride) => {
+                        assert_eq!(stride, resource.stride, "{name}: bytes of an element of \"{}\"", resource.name);
+                        raw.as_entire_binding()
+                    }
+                    Bound::Texture(view, access) => {
+                        assert_eq!(access, resource.access, "{name}: kind of \"{}\"", resource.name);
+                        wgpu::BindingResource::TextureView(view)
+                    }
+                };
+                wgpu::BindGroupEntry { binding: *binding, resource }
             })
             .collect();
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(name), layout: &self.layout, entries: &entries })

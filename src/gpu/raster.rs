@@ -2,13 +2,13 @@
 
 use pollster::block_on;
 
-use super::{Buffer, Gpu, GpuError, Recorder, Resource, Source, kernel};
+use super::{
+    Buffer, Gpu, GpuError, Recorder, Resource, Source, kernel,
+    texture::{self, DEPTH},
+};
 
 /// Format of every target: linear light, 32-bit float, premultiplied coverage in alpha.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
-
-/// Format of a target's depth, 0 at the near plane and 1 at the far one.
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Pixels drawn at once: with four rays a pixel and a thousand steps a ray, each of some tens of operations, a twentieth of a second
 /// at 1 TFLOP/s.
@@ -23,13 +23,26 @@ pub struct Raster {
 
 impl Raster {
     /// Builds `source` (entry points `vertex` and `fragment`), joined with what it imports from `library`, after
-    /// checking `resources` against it. Vertices come from their index alone.
+    /// checking `resources` against it. Vertices come from their index alone. It draws into a [`Target`].
     ///
     /// # Errors
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
+        Self::build(gpu, source, library, resources, Some("fragment"))
+    }
+
+    /// As [`Self::new`], without a fragment stage: it draws the depth alone, into a layer of [`DepthLayers`](super::DepthLayers).
+    ///
+    /// # Errors
+    /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
+    pub fn depth(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
+        Self::build(gpu, source, library, resources, None)
+    }
+
+    fn build(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource], fragment: Option<&str>) -> Result<Self, GpuError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let (bindings, _, module, layout) = kernel::build(gpu, source, library, resources)?;
+        let targets = [Some(FORMAT.into())];
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(source.name),
             layout: Some(&layout),
@@ -48,11 +61,11 @@ impl Raster {
                 bias: wgpu::DepthBiasState::default(),
             }),
             multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
+            fragment: fragment.map(|entry_point| wgpu::FragmentState {
                 module: &module,
-                entry_point: Some("fragment"),
+                entry_point: Some(entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(FORMAT.into())],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,
@@ -86,29 +99,9 @@ impl Target {
     /// # Errors
     /// [`GpuError::PictureSize`] if it is empty or past the adapter's texture size, or [`GpuError::OutOfMemory`].
     pub fn new(gpu: &Gpu, width: u32, height: u32) -> Result<Self, GpuError> {
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        let bytes = u64::from(width) * u64::from(height) * 20;
-        if !(1..=limit).contains(&width) || !(1..=limit).contains(&height) {
-            return Err(GpuError::PictureSize { width, height, adapter: gpu.adapter().name.clone(), limit });
-        }
-        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let texture = |label: &str, format: wgpu::TextureFormat, usage: wgpu::TextureUsages| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                view_formats: &[],
-            })
-        };
-        let depth = texture("depth", DEPTH, wgpu::TextureUsages::empty());
-        let texture = texture("picture", FORMAT, wgpu::TextureUsages::COPY_SRC);
-        if block_on(scope.pop()).is_some() {
-            return Err(GpuError::OutOfMemory { label: "picture".to_owned(), bytes });
-        }
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let depth = texture::allocate(gpu, "depth", [width, height, 1], DEPTH, attachment)?;
+        let texture = texture::allocate(gpu, "picture", [width, height, 1], FORMAT, attachment | wgpu::TextureUsages::COPY_SRC)?;
         let [view, depth] = [&texture, &depth].map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
         Ok(Self { texture, view, depth, width, height })
     }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{Bind, Gpu, GpuError, Grid, Kernel, Raster, Target, buffer};
+use super::{Bind, Buffer, DepthLayers, Gpu, GpuError, GpuValue, Grid, Kernel, Raster, Target, buffer};
 
 /// Passes in one command buffer. A longer recording goes to the adapter in pieces, so that no single piece looks to a driver's
 /// watchdog like an adapter that hangs.
@@ -98,17 +98,9 @@ impl<'g> Recorder<'g> {
                     resolve_target: None,
                     ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
                 })],
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: &target.depth,
-                    // Each band is drawn once: what lies outside of it is cleared by the first, and nothing is kept.
-                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
-                    stencil_ops: None,
-                }),
-                timestamp_writes: query.as_ref().map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
-                    query_set,
-                    beginning_of_pass_write_index: Some(*first),
-                    end_of_pass_write_index: Some(first + 1),
-                }),
+                // Each band is drawn once: nothing of its depth is kept.
+                depth_stencil_attachment: Some(depth_attachment(&target.depth, wgpu::StoreOp::Discard)),
+                timestamp_writes: render_stamps(query.as_ref()),
                 ..Default::default()
             });
             pass.set_pipeline(&raster.pipeline);
@@ -119,6 +111,34 @@ impl<'g> Recorder<'g> {
             // Each band is a piece of its own: one may keep a slow adapter busy for long.
             self.submit_piece();
         }
+    }
+
+    /// Records a draw of `vertices` vertices into a cleared layer of depths, by a pass from [`Raster::depth`].
+    ///
+    /// # Panics
+    /// If the bindings do not fit the render pass, or there is no such layer: the host's bug.
+    pub fn draw_depth(&mut self, raster: &Raster, binds: &[Bind<'_>], vertices: u32, target: &DepthLayers, layer: usize) {
+        let group = raster.bindings.group(self.gpu, binds);
+        let query = self.next_pass(raster.name());
+        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(raster.name()),
+            color_attachments: &[],
+            depth_stencil_attachment: Some(depth_attachment(&target.layers[layer], wgpu::StoreOp::Store)),
+            timestamp_writes: render_stamps(query.as_ref()),
+            ..Default::default()
+        });
+        pass.set_pipeline(&raster.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..vertices, 0..1);
+    }
+
+    /// Records a copy of all values of `from` to the beginning of `to`.
+    ///
+    /// # Panics
+    /// If `to` holds fewer: the caller's bug.
+    pub fn copy<T: GpuValue>(&mut self, from: &Buffer<T>, to: &Buffer<T>) {
+        assert!(from.len() <= to.len(), "{}: {} values copied into {}", to.label(), from.len(), to.len());
+        self.encoder.copy_buffer_to_buffer(&from.raw, 0, &to.raw, 0, (from.len() * size_of::<T>()) as u64);
     }
 
     pub(super) fn encoder(&mut self) -> &mut wgpu::CommandEncoder {
@@ -150,6 +170,21 @@ impl<'g> Recorder<'g> {
         self.submit_piece();
         Submission { pieces: self.pieces }
     }
+}
+
+/// A depth that is cleared to the far plane first.
+fn depth_attachment(view: &wgpu::TextureView, store: wgpu::StoreOp) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store });
+    wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }
+}
+
+/// Where a render pass leaves its time stamps, given the first one's index.
+fn render_stamps(query: Option<&(wgpu::QuerySet, u32)>) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+    query.map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
+        query_set,
+        beginning_of_pass_write_index: Some(*first),
+        end_of_pass_write_index: Some(first + 1),
+    })
 }
 
 /// Two time stamps for each pass of a piece, where the adapter has them.

@@ -33,7 +33,7 @@ pub use lpca::lpca;
 pub use memory::Memory;
 pub use paint::Painter;
 pub use progress::{Observer, Progress, StageGuard, StageTable, StageTime};
-pub use renderer::Renderer;
+pub use renderer::{Dressed, Renderer};
 pub use studio::{Studio, Subject};
 pub use swatches::swatches;
 pub use synth::Synthetic;

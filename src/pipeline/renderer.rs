@@ -3,22 +3,44 @@
 //! A picture may be larger than a texture: it is drawn tile by tile. Several rays a pixel are as many pictures, each moved by a part of a
 //! pixel, and their mean.
 
-use super::{PipelineError, Progress, tiles::run};
+use super::{PipelineError, Progress, Studio, tiles::run};
 use crate::{
-    data::{Camera, Light, Map, Mesh, Window},
+    data::{Camera, Map, Material, MeshView, Sampling, Window},
     gpu::{Gpu, Target},
-    render::{MeshBuffers, MeshPass, Output, Worn},
-    stage::Average,
+    model::{Relief, TexelSamples},
+    render::{Lighting, Lights, MeshBuffers, MeshPass, Output, ShadowPass, Worn},
+    stage::{Average, CompressedBtf, Minify, Surface},
 };
 
 /// Columns and rows of a tile at most: 16 MiB of pixels.
 const TILE: u32 = 1024;
+
+/// A mesh that wears a material under its lights, in adapter memory, ready to be seen from anywhere.
+#[derive(Debug)]
+pub struct Dressed {
+    mesh: MeshBuffers,
+    surface: Surface,
+    compressed: Option<(CompressedBtf, TexelSamples)>,
+    lighting: Lighting,
+    relief: Relief,
+    silhouette: bool,
+    sampling: Sampling,
+}
+
+impl Dressed {
+    fn worn(&self) -> Worn<'_> {
+        let compressed = self.compressed.as_ref().map(|(btf, texel_samples)| (btf, *texel_samples));
+        Worn { surface: &self.surface, compressed, relief: self.relief, silhouette: self.silhouette }
+    }
+}
 
 /// The stages that make pictures of meshes, on one device.
 #[derive(Debug)]
 pub struct Renderer<'g> {
     gpu: &'g Gpu,
     pass: MeshPass,
+    shadow: ShadowPass,
+    minify: Minify,
     average: Average,
 }
 
@@ -28,25 +50,46 @@ impl<'g> Renderer<'g> {
     /// # Errors
     /// [`PipelineError::Gpu`] if the driver refuses one.
     pub fn new(gpu: &'g Gpu) -> Result<Self, PipelineError> {
-        Ok(Self { gpu, pass: MeshPass::new(gpu)?, average: Average::new(gpu)? })
+        let (pass, shadow, minify, average) = (MeshPass::new(gpu)?, ShadowPass::new(gpu)?, Minify::new(gpu)?, Average::new(gpu)?);
+        Ok(Self { gpu, pass, shadow, minify, average })
     }
 
-    /// Uploads `mesh`, whose texture coordinates count `tiling` times.
+    /// Uploads what `view` shows of `material`, and draws the shadow maps.
+    ///
+    /// # Errors
+    /// [`PipelineError::NoLpca`] if the material has no local PCA and it is asked for, [`PipelineError::Stage`] or [`PipelineError::Gpu`] if
+    /// something does not fit the adapter.
+    pub fn dress(&self, studio: &Studio<'_>, view: &MeshView, material: &Material, progress: &Progress) -> Result<Dressed, PipelineError> {
+        let mut surface = studio.surface(material, progress)?;
+        let compressed =
+            view.unpainted.map(|texel_samples| Ok::<_, PipelineError>((studio.compressed(material)?, texel_samples))).transpose()?;
+        let texels = material.size().iter().product();
+        run(self.gpu, progress, "minify", [texels, 1], |recorder| Ok::<_, PipelineError>(self.minify.record(recorder, &mut surface)?))?;
+        self.show(view, surface, compressed, progress)
+    }
+
+    /// As [`Self::dress`], of a surface that is uploaded.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if something does not fit the adapter.
+    pub fn show(
+        &self, view: &MeshView, surface: Surface, compressed: Option<(CompressedBtf, TexelSamples)>, progress: &Progress,
+    ) -> Result<Dressed, PipelineError> {
+        let mesh = MeshBuffers::upload(self.gpu, &view.mesh, view.tiling)?;
+        let lights = Lights { lights: &view.lights, around: &[], shadows: view.shadows };
+        let lighting =
+            run(self.gpu, progress, "shadow", [0, 1], |recorder| Ok::<_, PipelineError>(self.shadow.record(recorder, &mesh, lights)?))?;
+        let MeshView { relief, silhouette, sampling, .. } = *view;
+        Ok(Dressed { mesh, surface, compressed, lighting, relief, silhouette, sampling })
+    }
+
+    /// What `output` says of `dressed`, seen by `camera`, `[row][column]`, 0 where nothing is. Of a radiance it is the mean of as many
+    /// pictures as its view asks for; directions, distances and texels, which have no mean, are those in the middle of each pixel.
     ///
     /// # Errors
     /// [`PipelineError::Gpu`] if it does not fit the adapter.
-    pub fn upload(&self, mesh: &Mesh, tiling: [f64; 2]) -> Result<MeshBuffers, PipelineError> {
-        Ok(MeshBuffers::upload(self.gpu, mesh, tiling)?)
-    }
-
-    /// What `output` says of `mesh` wearing `worn`, `[row][column]`: the mean of `samples` rays a pixel, 0 where nothing is.
-    ///
-    /// # Errors
-    /// [`PipelineError::Gpu`] if it does not fit the adapter.
-    #[expect(clippy::too_many_arguments, reason = "what a picture is of, and how it is taken")]
-    pub fn picture(
-        &self, mesh: &MeshBuffers, worn: Worn<'_>, camera: &Camera, lights: &[Light], output: Output, samples: u32, progress: &Progress,
-    ) -> Result<Map<[f32; 4]>, PipelineError> {
+    pub fn picture(&self, dressed: &Dressed, camera: &Camera, output: Output, progress: &Progress) -> Result<Map<[f32; 4]>, PipelineError> {
+        let sampling = if output == Output::Radiance { dressed.sampling } else { Sampling { pictures: 1, ..dressed.sampling } };
         let [width, height] = camera.size;
         let mut picture = Map::from_fn(width as usize, height as usize, |_, _| [0.0; 4]);
         for (top, left) in (0..height).step_by(TILE as usize).flat_map(|top| (0..width).step_by(TILE as usize).map(move |left| (top, left)))
@@ -55,13 +98,23 @@ impl<'g> Renderer<'g> {
             let pixels = size[0] as usize * size[1] as usize;
             let target = Target::new(self.gpu, size[0], size[1])?;
             let mean = self.gpu.fresh("mean picture", pixels)?;
-            for sample in 0..samples {
+            for sample in 0..sampling.pictures {
                 run(self.gpu, progress, "mesh", [pixels, 1], |recorder| {
-                    let [right, down] = within_pixel(sample, samples);
+                    let [right, down] = within_pixel(sample, sampling.pictures);
                     let window = Window { corner: [f64::from(left) + right, f64::from(top) + down], size: size.map(f64::from) };
-                    self.pass.draw(recorder, mesh, worn, camera, window, lights, output, &target)?;
+                    self.pass.draw(
+                        recorder,
+                        &dressed.mesh,
+                        dressed.worn(),
+                        camera,
+                        window,
+                        &dressed.lighting,
+                        output,
+                        sampling,
+                        &target,
+                    )?;
                     let drawn = target.record_copy(recorder)?;
-                    self.average.record(recorder, &drawn, &mean, [size[0] as usize, target.row_pixels()], [sample, samples])
+                    self.average.record(recorder, &drawn, &mean, [size[0] as usize, target.row_pixels()], [sample, sampling.pictures])
                 })?;
             }
             for (index, value) in mean.read(self.gpu)?.into_iter().enumerate() {

@@ -91,6 +91,7 @@ impl<'g> Studio<'g> {
             diffuse: upload_rgb(gpu, "diffuse", &material.svbrdf.diffuse)?,
             specular: gpu.upload("specular", &specular)?,
             lobes: gpu.upload("lobes", &parameters)?,
+            levels: 1,
             painted: upload_painted(gpu, material)?,
             coats: upload_coats(gpu, material)?,
             method: material.painted.as_ref().map(|painted| painted.method).unwrap_or_default(),
@@ -120,14 +121,18 @@ impl<'g> Studio<'g> {
     pub fn subject(&self, material: &Material, appearance: Appearance, progress: &Progress) -> Result<Subject, PipelineError> {
         match appearance {
             Appearance::Svbrdf { relief } => Ok(Subject::Surface { surface: Box::new(self.surface(material, progress)?), relief }),
-            Appearance::Lpca { texel_samples } => {
-                let provenance = &material.provenance;
-                let lpca = material.lpca.as_ref().ok_or_else(|| PipelineError::NoLpca { source_name: provenance.source.clone() })?;
-                let boundary = provenance.settings.boundary;
-                let btf = CompressedBtf::upload(self.gpu, lpca, &provenance.views, &provenance.lights, boundary)?;
-                Ok(Subject::Compressed { btf: Box::new(btf), texel_samples })
-            }
+            Appearance::Lpca { texel_samples } => Ok(Subject::Compressed { btf: Box::new(self.compressed(material)?), texel_samples }),
         }
+    }
+
+    /// A material's local PCA, in adapter memory.
+    ///
+    /// # Errors
+    /// [`PipelineError::NoLpca`] if it has none, [`PipelineError::Stage`] or [`PipelineError::Gpu`] if it does not fit the adapter.
+    pub fn compressed(&self, material: &Material) -> Result<CompressedBtf, PipelineError> {
+        let provenance = &material.provenance;
+        let lpca = material.lpca.as_ref().ok_or_else(|| PipelineError::NoLpca { source_name: provenance.source.clone() })?;
+        Ok(CompressedBtf::upload(self.gpu, lpca, &provenance.views, &provenance.lights, provenance.settings.boundary)?)
     }
 
     /// As [`Self::reconstruct`], of either part of a material.

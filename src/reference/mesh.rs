@@ -3,29 +3,25 @@
 use glam::DVec3;
 
 use super::{CompressedBtf, Surface};
-use crate::{
-    data::{Camera, Direction, Light, Map, Mesh},
-    model::{Relief, TexelSamples},
-};
+use crate::data::{Direction, Light, Map, Mesh, MeshView};
 
 /// A view counts as this low above the base plane at least.
 const LOWEST_VIEW: f64 = 0.02;
 
 /// What a mesh wears.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Worn<'a> {
     /// The material.
     pub surface: &'a Surface,
     /// What its bare part is made from, if it is the local PCA.
-    pub compressed: Option<(&'a CompressedBtf<'a>, TexelSamples)>,
-    /// Which effects of the height field the picture has.
-    pub relief: Relief,
+    pub compressed: Option<&'a CompressedBtf<'a>>,
 }
 
-/// RGB (π·L_o/E) and 1 in each pixel of `camera` that shows `mesh`, 0 in the others; texture coordinates count `tiling` times.
+/// RGB (π·L_o/E) and 1 in each pixel of `view`, whose mesh wears `worn`, 0 in the others. Shadows are sharp.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "columns and rows of a picture and of a material")]
-pub fn mesh(mesh: &Mesh, tiling: [f64; 2], worn: &Worn<'_>, camera: &Camera, lights: &[Light]) -> Map<[f64; 4]> {
+pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
+    let MeshView { mesh, tiling, camera, lights, shadows, relief, .. } = view;
     let field = worn.surface.field();
     let size = [worn.surface.heights.width() as f64, worn.surface.heights.height() as f64];
     let vector = |values: [f32; 3]| DVec3::from_array(values.map(f64::from));
@@ -61,16 +57,16 @@ pub fn mesh(mesh: &Mesh, tiling: [f64; 2], worn: &Worn<'_>, camera: &Camera, lig
             let bitangent = f64::from(mesh.tangents()[corners[0]][3]) * outside.cross(tangent);
             let normal = if along < 0.0 { outside } else { -outside };
             let in_base = |v: DVec3| DVec3::new(tangent.dot(v), bitangent.dot(v), normal.dot(v));
-            let mut view = in_base(-direction);
-            view.z = view.z.max(LOWEST_VIEW);
-            let view = view.normalize();
+            let mut toward = in_base(-direction);
+            toward.z = toward.z.max(LOWEST_VIEW);
+            let toward = toward.normalize();
             let places = corners.map(place);
             let base = [0, 1].map(|axis| places.iter().zip(shares).map(|(place, share)| share * place[axis]).sum::<f64>());
             let edge = |corner: usize| [0, 1].map(|axis| places[corner][axis] - places[0][axis]);
             let ([x1, y1], [x2, y2]) = (edge(1), edge(2));
             let texel_width = (across.length() / (x1 * y2 - x2 * y1).abs()).sqrt();
-            let height = if worn.relief.displace { field.first_hit(base, view).1 } else { field.at(base) };
-            let met = distance - height * texel_width / view.z;
+            let height = if relief.displace { field.first_hit(base, toward).1 } else { field.at(base) };
+            let met = distance - height * texel_width / toward.z;
             if met >= nearest.0 {
                 continue;
             }
@@ -80,7 +76,13 @@ pub fn mesh(mesh: &Mesh, tiling: [f64; 2], worn: &Worn<'_>, camera: &Camera, lig
                     Light::Directional { toward, irradiance } => (toward, irradiance),
                     Light::Point { place, irradiance } => (place - at, irradiance.map(|value| value / (place - at).length_squared())),
                 };
-                let radiance = radiance(worn, base, view, in_base(way.normalize()));
+                // From a little above the surface, towards the light and no further.
+                let from = at + 1e-4 * normal;
+                let reach = if let Light::Point { .. } = light { way.length() } else { f64::INFINITY };
+                if *shadows && is_hidden(mesh, from, way.normalize(), reach) {
+                    continue;
+                }
+                let radiance = radiance(view, worn, base, toward, in_base(way.normalize()));
                 (0..3).for_each(|channel| value[channel] += irradiance[channel] * radiance[channel]);
             }
             nearest = (met, value);
@@ -89,16 +91,32 @@ pub fn mesh(mesh: &Mesh, tiling: [f64; 2], worn: &Worn<'_>, camera: &Camera, lig
     })
 }
 
+/// Whether a triangle stands in the way of a ray, nearer than `reach` (Moeller, Trumbore 1997).
+fn is_hidden(mesh: &Mesh, origin: DVec3, direction: DVec3, reach: f64) -> bool {
+    mesh.triangles().iter().any(|triangle| {
+        let [a, b, c] = triangle.map(|corner| DVec3::from_array(mesh.positions()[corner as usize].map(f64::from)));
+        let (ab, ac) = (b - a, c - a);
+        let across = direction.cross(ac);
+        let determinant = ab.dot(across);
+        let from = origin - a;
+        let u = from.dot(across) / determinant;
+        let turned = from.cross(ab);
+        let v = direction.dot(turned) / determinant;
+        let distance = ac.dot(turned) / determinant;
+        u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0 && distance < reach
+    })
+}
+
 /// π·L_o/E of the view ray through `base` under a light, both in the frame of the base plane.
-fn radiance(worn: &Worn<'_>, base: [f64; 2], view: DVec3, light: DVec3) -> [f64; 3] {
+fn radiance(view: &MeshView, worn: Worn<'_>, base: [f64; 2], toward: DVec3, light: DVec3) -> [f64; 3] {
     let field = worn.surface.field();
-    let Some((compressed, samples)) = worn.compressed else {
-        return worn.surface.radiance(&field, base, view, light, worn.relief);
+    let (Some(compressed), Some(samples)) = (worn.compressed, view.unpainted) else {
+        return worn.surface.radiance(&field, base, toward, light, view.relief);
     };
-    let (painted, bare) = worn.surface.painted_radiance(&field, base, view, light, worn.relief);
+    let (painted, bare) = worn.surface.painted_radiance(&field, base, toward, light, view.relief);
     if light.z < 0.001 {
         return [0.0; 3];
     }
-    let original = compressed.radiance(base, samples, Direction::from_vector(view), Direction::from_vector(light));
+    let original = compressed.radiance(base, samples, Direction::from_vector(toward), Direction::from_vector(light));
     std::array::from_fn(|channel| painted[channel] + bare * original[channel])
 }

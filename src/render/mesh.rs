@@ -4,10 +4,11 @@
 //! The mesh is the base plane: rays are followed through the relief from where they cross it, in the frame of tangent, bitangent and normal
 //! there. A texel is as wide in the world as the triangle's texture coordinates make it, on the mean of both directions.
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
+use super::Lighting;
 use crate::{
-    data::{Camera, Light, Mesh, Window},
+    data::{Camera, Mesh, Sampling, Window},
     gpu::{Bind, Buffer, Gpu, GpuError, Raster, Recorder, Resource, Target, bind},
     gpu_struct,
     model::{Relief, TexelSamples},
@@ -25,17 +26,17 @@ gpu_struct! {
         lights: u32,
         output: u32,
         silhouette: u32,
-        _pad: u32,
+        levels: u32,
+        rays: u32,
+        footprint: f32,
+        _pad0: u32,
+        _pad1: u32,
     }
 }
 gpu_struct! {
-    struct Vertex { position: [f32; 3], u: f32, normal: [f32; 3], v: f32, tangent: [f32; 3], handedness: f32 }
+    /// A vertex, as the shaders have it.
+    pub struct Vertex { position: [f32; 3], u: f32, normal: [f32; 3], v: f32, tangent: [f32; 3], handedness: f32 }
 }
-gpu_struct! {
-    /// A light, as the shader has it.
-    struct LightParams { place: [f32; 4], irradiance: [f32; 4] }
-}
-
 /// What a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Output {
@@ -63,8 +64,9 @@ pub struct Worn<'a> {
 /// A mesh in adapter memory.
 #[derive(Debug)]
 pub struct MeshBuffers {
-    vertices: Buffer<Vertex>,
-    corners: Buffer<u32>,
+    pub(super) vertices: Buffer<Vertex>,
+    pub(super) corners: Buffer<u32>,
+    ball: (DVec3, f64),
 }
 
 impl MeshBuffers {
@@ -88,7 +90,13 @@ impl MeshBuffers {
                 }
             })
             .collect();
-        Ok(Self { vertices: gpu.upload("vertices", &vertices)?, corners: gpu.upload("corners", mesh.triangles().as_flattened())? })
+        let corners = gpu.upload("corners", mesh.triangles().as_flattened())?;
+        Ok(Self { vertices: gpu.upload("vertices", &vertices)?, corners, ball: mesh.ball() })
+    }
+
+    /// Center and radius of a ball around the mesh.
+    pub(super) fn ball(&self) -> (DVec3, f64) {
+        self.ball
     }
 }
 
@@ -108,9 +116,9 @@ impl MeshPass {
         let with = |bare: Vec<Resource>| {
             let mut resources = Surface::painted_resources();
             resources.extend(bare);
+            resources.extend(Lighting::resources());
             resources.extend([
                 Resource::uniform::<CameraParams>("camera"),
-                Resource::read::<LightParams>("lights"),
                 Resource::read::<Vertex>("vertices"),
                 Resource::read::<u32>("corners"),
             ]);
@@ -122,27 +130,35 @@ impl MeshPass {
         })
     }
 
-    /// Draws `mesh` wearing `worn` into `target`, which shows the part `window` of the camera's picture.
+    /// Draws `mesh` wearing `worn` into `target`, which shows the part `window` of the camera's picture; `lighting` is that of this mesh.
     ///
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
     pub fn draw(
-        &self, recorder: &mut Recorder<'_>, mesh: &MeshBuffers, worn: Worn<'_>, camera: &Camera, window: Window, lights: &[Light],
-        output: Output, target: &Target,
+        &self, recorder: &mut Recorder<'_>, mesh: &MeshBuffers, worn: Worn<'_>, camera: &Camera, window: Window, lighting: &Lighting,
+        output: Output, sampling: Sampling, target: &Target,
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
         let scene: Buffer<Scene> = worn.surface.unlit_scene(gpu, worn.relief)?;
+        let [clip_x, clip_y, clip_z, clip_w] = clip_rows(camera.clip_from_world(window));
         let params = CameraParams {
-            lights: count(lights.len()),
+            lights: lighting.count(),
             output: output as u32,
             silhouette: worn.silhouette.into(),
+            levels: worn.surface.levels,
+            rays: sampling.rays.max(1),
+            footprint: single(1.0 / f64::from(sampling.pictures.max(1)).sqrt()),
             eye: camera.homogeneous_eye().as_vec4().to_array(),
-            ..with_rows(camera.clip_from_world(window))
+            clip_x,
+            clip_y,
+            clip_z,
+            clip_w,
+            ..Default::default()
         };
         let camera = gpu.uniform("camera", &params)?;
-        let lights = gpu.upload("lights", &lights.iter().map(LightParams::from).collect::<Vec<_>>())?;
         let mut binds = worn.surface.painted_binds(&scene);
-        binds.extend([bind("camera", &camera), bind("lights", &lights), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)]);
+        binds.extend([bind("camera", &camera), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)]);
+        binds.extend(lighting.binds());
         let vertices = count(mesh.corners.len());
         match worn.compressed {
             None => {
@@ -159,18 +175,7 @@ impl MeshPass {
     }
 }
 
-fn with_rows(clip_from_world: DMat4) -> CameraParams {
-    let [clip_x, clip_y, clip_z, clip_w] = [0, 1, 2, 3].map(|row| clip_from_world.row(row).as_vec4().to_array());
-    CameraParams { clip_x, clip_y, clip_z, clip_w, ..Default::default() }
-}
-
-impl From<&Light> for LightParams {
-    fn from(light: &Light) -> Self {
-        let (place, irradiance) = match *light {
-            Light::Directional { toward, irradiance } => (toward.extend(0.0), irradiance),
-            Light::Point { place, irradiance } => (place.extend(1.0), irradiance),
-        };
-        let [r, g, b] = irradiance.map(single);
-        Self { place: place.as_vec4().to_array(), irradiance: [r, g, b, 0.0] }
-    }
+/// Rows of a matrix.
+pub(super) fn clip_rows(clip_from_world: DMat4) -> [[f32; 4]; 4] {
+    [0, 1, 2, 3].map(|row| clip_from_world.row(row).as_vec4().to_array())
 }

@@ -22,6 +22,8 @@ pub struct Surface {
     pub specular: Buffer<[f32; 4]>,
     /// `[lobe][row][column]` (C_x, C_y, C_z, n) of the unpainted material's lobes.
     pub lobes: Buffer<[f32; 4]>,
+    /// Levels of `painted`, `coats` and the field's normals, the finest first ([`Minify`](super::Minify)): 1, or all.
+    pub levels: u32,
     /// ρ_d of the paint on what lies below it, R, G, B; the fourth component is how much of the texel is painted, 0 to 1.
     pub painted: Buffer<[f32; 4]>,
     /// F₀ and α of the topmost paint's surface.

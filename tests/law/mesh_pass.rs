@@ -7,7 +7,7 @@ use overpaint::{
 };
 
 use crate::{
-    parity::mesh::draw,
+    parity::mesh::{draw, view},
     support::{
         Worst, hold,
         surface::{bumpy, plain, reconstruct, upload, with_heights},
@@ -29,11 +29,11 @@ fn directional(toward: DVec3) -> [Light; 1] {
 }
 
 fn the_plane_from_above_is_the_reconstruction(gpu: &Gpu) {
-    let surface = upload(gpu, &bumpy(48, 48, Boundary::Periodic, 2));
+    let surface = bumpy(48, 48, Boundary::Periodic, 2);
     let light = Direction::from_degrees(55.0, 160.0);
-    let drawn =
-        draw(gpu, &Shape::Plane.mesh(), [1.0; 2], &surface, Relief::default(), &above([48, 48]), &directional(light.vector()), Output::Radiance);
-    let reconstructed = reconstruct(gpu, &surface, Direction::from_degrees(0.0, 0.0), light, Relief::default());
+    let view = view(Shape::Plane.mesh(), [1.0; 2], above([48, 48]), &directional(light.vector()));
+    let drawn = draw(gpu, &view, &surface, Output::Radiance);
+    let reconstructed = reconstruct(gpu, &upload(gpu, &surface), Direction::from_degrees(0.0, 0.0), light, Relief::default());
     let errors = drawn.values().iter().zip(reconstructed.values()).flat_map(|(a, b)| (0..4).map(|c| (a[c] - b[c]).abs()));
     // Places come through the vertices' interpolation, good to 2^-16 of the 48 texels, and steep places magnify it.
     hold("mesh: the plane from above against reconstruct", errors.worst(), 5e-3);
@@ -42,9 +42,10 @@ fn the_plane_from_above_is_the_reconstruction(gpu: &Gpu) {
 /// A plateau of 4 texels on a plane 2 long and 64 texels wide stands 4/32 nearer.
 fn a_plateau_has_its_depth(gpu: &Gpu) {
     let plateau = Map::from_fn(64, 64, |column, _| if (20..44).contains(&column) { 4.0 } else { 0.0 });
-    let surface = upload(gpu, &with_heights(plain(64, 64), plateau));
+    let surface = with_heights(plain(64, 64), plateau);
     let camera = above([64, 64]);
-    let seen = draw(gpu, &Shape::Plane.mesh(), [1.0; 2], &surface, Relief::default(), &camera, &directional(DVec3::Z), Output::Geometry);
+    let view = view(Shape::Plane.mesh(), [1.0; 2], camera, &directional(DVec3::Z));
+    let seen = draw(gpu, &view, &surface, Output::Geometry);
     let [ground, raised] = [seen[(5, 30)][3], seen[(32, 30)][3]];
     hold("mesh: depth of a plateau", (f64::from(ground - raised) - 4.0 / 32.0).abs(), 1e-5);
     let normal = seen[(32, 30)];
@@ -64,7 +65,7 @@ fn a_mirrored_light_gives_the_mirrored_picture(gpu: &Gpu) {
     let show = |surface, x: f64| {
         let lights = directional(dvec3(x * light.x, light.y, light.z));
         let camera = Camera::around(DVec3::ZERO, 1.4, [x * 0.5, 0.3], Projection::Perspective { field_of_view: 0.5 }, [80, 60]);
-        draw(gpu, &Shape::Plane.mesh(), [1.0; 2], &upload(gpu, surface), Relief::default(), &camera, &lights, Output::Radiance)
+draw(gpu, &view(Shape::Plane.mesh(), [1.0; 2], camera, &lights), surface, Output::Radiance)
     };
     let (left, right) = (show(&level, 1.0), show(&mirrored, -1.0));
     let off = (0..80 * 60).filter(|pixel| {
@@ -77,10 +78,10 @@ fn a_mirrored_light_gives_the_mirrored_picture(gpu: &Gpu) {
 
 /// At distance d the irradiance of a light of d² is 1.
 fn a_point_light_far_away_is_directional(gpu: &Gpu) {
-    let surface = upload(gpu, &bumpy(32, 32, Boundary::Periodic, 3));
+    let surface = bumpy(32, 32, Boundary::Periodic, 3);
     let toward = dvec3(0.3, 0.5, 0.8).normalize();
     let camera = Camera::around(DVec3::ZERO, 1.4, [0.2, 0.3], Projection::Perspective { field_of_view: 0.5 }, [64, 64]);
-    let show = |lights: &[Light], mesh: &Mesh| draw(gpu, mesh, [1.0; 2], &surface, Relief::default(), &camera, lights, Output::Radiance);
+    let show = |lights: &[Light], mesh: &Mesh| draw(gpu, &view(mesh.clone(), [1.0; 2], camera, lights), &surface, Output::Radiance);
     for mesh in [Shape::Plane.mesh(), Shape::Sphere.mesh()] {
         let near = show(&directional(toward), &mesh);
         let far = show(&[Light::Point { place: 1e4 * toward, irradiance: [1e8; 3] }], &mesh);

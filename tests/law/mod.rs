@@ -23,6 +23,7 @@ crate::suites! {
     masked,
     mesh,
     mesh_pass,
+    minify,
     microfacet,
     mixture,
     normals,

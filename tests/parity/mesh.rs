@@ -1,11 +1,11 @@
 use glam::{DVec3, dvec3};
 use overpaint::{
-    data::{Camera, Light, Map, Mesh, Projection, Shape},
+    data::{Camera, Light, Map, Mesh, MeshView, Projection, Sampling, Shape},
     gpu::Gpu,
-    model::{Boundary, Relief},
+    model::Boundary,
     pipeline::{Progress, Renderer},
-    reference,
-    render::{Output, Worn},
+    reference::{self, Surface},
+    render::Output,
     stage,
 };
 
@@ -14,21 +14,24 @@ use crate::support::{
     surface::{bumpy, compare, upload},
 };
 
-crate::suite! { gpu: agrees_with_its_twin, averages_agree_with_their_twin; }
+crate::suite! { gpu: agrees_with_its_twin, shadows_agree_with_rays, averages_agree_with_their_twin; }
 
-/// What `output` says of a mesh on the adapter, one ray a pixel.
-pub fn draw(
-    gpu: &Gpu, mesh: &Mesh, tiling: [f64; 2], surface: &stage::Surface, relief: Relief, camera: &Camera, lights: &[Light], output: Output,
-) -> Map<[f32; 4]> {
+/// What `output` says of `view` on the adapter, one ray a pixel.
+pub fn draw(gpu: &Gpu, view: &MeshView, surface: &Surface, output: Output) -> Map<[f32; 4]> {
     let renderer = Renderer::new(gpu).expect("builds");
-    let mesh = renderer.upload(mesh, tiling).expect("fits");
-    let worn = Worn { surface, compressed: None, relief, silhouette: false };
-    renderer.picture(&mesh, worn, camera, lights, output, 1, &Progress::new(gpu.adapter())).expect("fits")
+    let progress = Progress::new(gpu.adapter());
+    let view = MeshView { sampling: Sampling { rays: 1, pictures: 1 }, ..view.clone() };
+    let dressed = renderer.show(&view, upload(gpu, surface), None, &progress).expect("fits");
+    renderer.picture(&dressed, &view.camera, output, &progress).expect("fits")
+}
+
+/// `mesh` without shadows, `tiling` pieces of the material on it.
+pub fn view(mesh: Mesh, tiling: [f64; 2], camera: Camera, lights: &[Light]) -> MeshView {
+    MeshView { tiling, shadows: false, ..MeshView::new(mesh, camera, lights.to_vec()) }
 }
 
 fn agrees_with_its_twin(gpu: &Gpu) {
     let surface = bumpy(48, 32, Boundary::Periodic, 11);
-    let uploaded = upload(gpu, &surface);
     let lights = [
         Light::Directional { toward: dvec3(0.5, 0.6, 0.8).normalize(), irradiance: [1.0, 0.9, 0.8] },
         Light::Point { place: dvec3(-2.0, 1.0, 2.5), irradiance: [2.0, 3.0, 4.0] },
@@ -40,15 +43,56 @@ fn agrees_with_its_twin(gpu: &Gpu) {
         (Shape::Sphere, [2.0, 2.0], [0.3, 0.2], perspective, [65, 80]),
     ];
     for (shape, tiling, direction, projection, size) in cases {
-        let mesh = shape.mesh();
         let camera = Camera::around(DVec3::ZERO, 1.4, direction, projection, size);
-        let found = draw(gpu, &mesh, tiling, &uploaded, Relief::default(), &camera, &lights, Output::Radiance);
-        let worn = reference::Worn { surface: &surface, compressed: None, relief: Relief::default() };
-        let expected = reference::mesh(&mesh, tiling, &worn, &camera, &lights);
-        let [flip, differing] = compare(&found, &expected, 5e-3);
-        // As for the plane: pixels near an edge see one side here and the other there.
-        hold("mesh: mean FLIP", flip, 0.005);
-        hold("mesh: share of pixels off by more than 0.005", differing, 0.02);
+        agree("mesh", gpu, &view(shape.mesh(), tiling, camera, &lights), &surface);
+    }
+}
+
+/// Holds the adapter's picture to the twin's.
+fn agree(what: &str, gpu: &Gpu, view: &MeshView, surface: &Surface) {
+    let found = draw(gpu, view, surface, Output::Radiance);
+    let expected = reference::mesh(view, reference::Worn { surface, compressed: None });
+    let [flip, differing] = compare(&found, &expected, 5e-3);
+    // As for the plane: pixels near an edge see one side here and the other there.
+    hold(&format!("{what}: mean FLIP"), flip, 0.005);
+    hold(&format!("{what}: share of pixels off by more than 0.005"), differing, 0.02);
+}
+
+/// A floor from -1 to 1 in y = 0, and above its middle a card.
+fn floor_and_card() -> Mesh {
+    let (mut positions, mut coordinates, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for (half, height) in [(1.0, 0.0), (0.3, 0.5)] {
+        let first = positions.len() as u32;
+        for [x, z] in [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
+            positions.push([half * x, height, half * z]);
+            coordinates.push([0.5 + 0.5 * half * x, 0.5 - 0.5 * half * z]);
+        }
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    let vertices = positions.len();
+    let tangents = vec![[1.0, 0.0, 0.0, 1.0]; vertices];
+    Mesh::new(positions, vec![[0.0, 1.0, 0.0]; vertices], tangents, coordinates, triangles).expect("is a mesh")
+}
+
+fn shadows_agree_with_rays(gpu: &Gpu) {
+    let surface = bumpy(32, 32, Boundary::Periodic, 5);
+    let camera = Camera::around(DVec3::ZERO, 1.2, [0.3, 0.9], Projection::Perspective { field_of_view: 0.6 }, [160, 120]);
+    let far = Light::Directional { toward: dvec3(0.3, 0.9, 0.2).normalize(), irradiance: [1.0; 3] };
+    let outside = Light::Point { place: dvec3(0.5, 3.0, -0.5), irradiance: [8.0; 3] };
+    // Below the card, so that the floor is lit and the card's upper side is not, through five sides of the cube.
+    let inside = Light::Point { place: dvec3(0.1, 0.3, 0.2), irradiance: [0.1; 3] };
+    for (name, light, lit) in [("far away", far, true), ("outside", outside, true), ("inside", inside, false)] {
+        let view = MeshView { shadows: true, ..view(floor_and_card(), [1.0; 2], camera, &[light]) };
+        let found = draw(gpu, &view, &surface, Output::Radiance);
+        let worn = reference::Worn { surface: &surface, compressed: None };
+        let expected = reference::mesh(&view, worn);
+        let [_, differing] = compare(&found, &expected, 5e-3);
+        // The edge of the card's shadow is 70 pixels long and, averaged over three texels of a map of 2048 across the scene, a fifth of a pixel
+        // wide; as many lie on edges of the relief.
+        hold(&format!("mesh: share of pixels off, light {name}"), differing, 0.005);
+        let unshadowed = reference::mesh(&MeshView { shadows: false, ..view }, worn);
+        let changed = expected.values().iter().zip(unshadowed.values()).filter(|(with, without)| with != without).count();
+        assert!(lit == (changed > 200), "{name}: shadows on {changed} pixels");
     }
 }
 

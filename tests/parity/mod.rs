@@ -15,6 +15,7 @@ crate::suites! {
     linear_refit,
     lobe_residual,
     mesh,
+    minify,
     microfacet,
     lpca_assign,
     lpca_covariance,

@@ -91,6 +91,7 @@ pub fn upload(gpu: &Gpu, surface: &reference::Surface) -> stage::Surface {
         diffuse: upload(three(&surface.diffuse)),
         specular: upload(surface.lobes.iter().flat_map(|(specular, _)| three(specular)).collect()),
         lobes: upload(surface.lobes.iter().flat_map(|(_, lobe)| four(lobe)).collect()),
+        levels: 1,
         painted: upload(four(&surface.painted)),
         coats: gpu.upload("coats", &surface.coat.values().iter().map(|coat| coat.map(|x| x as f32)).collect::<Vec<_>>()).expect("fits"),
         method: surface.method,
