@@ -6,11 +6,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::{
     data::{Block, Direction, RowOrder, Transfer},
+    io::job::{MAX_PIXELS, MAX_SIDE},
     model::{Boundary, SpecularScale, StereoMethod, SurfaceMode, TexelSamples},
 };
-
-/// Largest side of a picture: the largest texture that WebGPU guarantees.
-const MAX_SIDE: u32 = 8192;
 
 /// `THETA,PHI` in degrees; θ from 0 to below 90.
 pub fn direction(text: &str) -> Result<Direction, String> {
@@ -32,7 +30,17 @@ pub fn bearing(text: &str) -> Result<[f64; 2], String> {
         .ok_or_else(|| "expected AZIMUTH,ELEVATION in degrees, such as 30,20; ELEVATION from -90 to 90".to_owned())
 }
 
-/// Degrees from 0 to below 180.
+/// `X,Y,Z`.
+pub fn place(text: &str) -> Result<[f64; 3], String> {
+    let place = || {
+        let mut parts = text.split(',').map(|part| number(part.trim()).ok());
+        let place = [parts.next()??, parts.next()??, parts.next()??];
+        parts.next().is_none().then_some(place)
+    };
+    place().ok_or_else(|| "expected X,Y,Z, such as 1,2,3".to_owned())
+}
+
+/// Degrees from 0 to 170.
 pub fn angle_of_view(text: &str) -> Result<f64, String> {
     number(text).ok().filter(|angle| (0.0..=170.0).contains(angle)).ok_or_else(|| "expected an angle from 0 to 170 degrees".to_owned())
 }
@@ -42,7 +50,8 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
     text.split_once('x')
         .and_then(|(width, height)| Some([side(width)?, side(height)?]))
-        .ok_or_else(|| format!("expected WxH in pixels, such as 512x512, each side from 1 to {MAX_SIDE}"))
+        .filter(|[width, height]| u64::from(*width) * u64::from(*height) <= MAX_PIXELS)
+        .ok_or_else(|| format!("expected WxH in pixels, such as 512x512, each side from 1 to {MAX_SIDE} and {MAX_PIXELS} pixels in all"))
 }
 
 /// The path of a picture: `.png` or `.exr`.

@@ -1,14 +1,14 @@
-//! Meshes on the command line: what wears the material, and how it is looked at.
+//! Meshes on the command line: what wears the material, how it is looked at, and the pictures of it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, CommandFactory, ValueEnum, error::ErrorKind};
 
-use super::{CliError, arguments, model::Model};
+use super::{Cli, CliError, arguments, model::Model};
 use crate::{
-    data::{Camera, Light, Mesh, MeshView, Projection, Sampling, Shape},
-    io,
-    model::TexelSamples,
+    data::{Camera, Channel, Light, Mesh, MeshView, Sampling, Shape},
+    io::{self, job::Job},
+    model::{Development, TexelSamples, ToneMap},
 };
 
 /// A mesh that wears the material.
@@ -25,11 +25,20 @@ pub struct MeshArguments {
     #[arg(long, value_name = "AZIMUTH,ELEVATION", requires = "mesh", default_value = "30,20", allow_hyphen_values = true, value_parser = arguments::bearing)]
     camera: [f64; 2],
     /// Angle of view in degrees between the upper and the lower edge; 0 is a camera of parallel rays
-    #[arg(long, value_name = "DEGREES", requires = "mesh", default_value_t = 30.0, value_parser = arguments::angle_of_view)]
+    #[arg(long, value_name = "DEGREES", requires = "mesh", default_value_t = MeshView::ANGLE_OF_VIEW, value_parser = arguments::angle_of_view)]
     angle_of_view: f64,
-    /// A light at infinity, as --camera; may be given several times [default: -40,50]
+    /// A light far away, as --camera; may be given several times [default: one from the upper left and a weak one from the right]
     #[arg(long, value_name = "AZIMUTH,ELEVATION", requires = "mesh", allow_hyphen_values = true, value_parser = arguments::bearing)]
     sun: Vec<[f64; 2]>,
+    /// A light near by, in units of the mesh; white that faces it at distance 1 reads 1; may be given several times
+    #[arg(long, value_name = "X,Y,Z", requires = "mesh", allow_hyphen_values = true, value_parser = arguments::place)]
+    lamp: Vec<[f64; 3]>,
+    /// The mesh throws no shadows on itself
+    #[arg(long, requires = "mesh")]
+    no_mesh_shadows: bool,
+    /// Rays that leave the sheet of texture coordinates 0 to 1 see through it: its edges show the relief
+    #[arg(long, requires = "mesh")]
+    silhouettes: bool,
     /// What the bare part is made from
     #[arg(long, value_name = "MODEL", requires = "mesh", value_enum, default_value_t = Model::Svbrdf)]
     unpainted: Model,
@@ -39,41 +48,113 @@ pub struct MeshArguments {
     /// Rays a pixel
     #[arg(long, value_name = "N", requires = "mesh", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
     spp: u32,
+    /// What an .exr has beside its colours, separated by commas
+    #[arg(long, value_name = "CHANNELS", requires = "mesh", value_enum, value_delimiter = ',')]
+    channels: Vec<ChannelName>,
+    /// Powers of two that a .png is brighter by
+    #[arg(long, value_name = "STOPS", requires = "mesh", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::number)]
+    exposure: f64,
+    /// How light that may exceed 1 is shown by a .png
+    #[arg(long, value_name = "MAP", requires = "mesh", value_enum, default_value_t = ToneMapName::Neutral)]
+    tone_map: ToneMapName,
+    /// Pictures of a whole turn of the mesh: their number stands for the #s in the picture's name; or a film, if it ends in .mp4
+    #[arg(long, value_name = "PICTURES", requires = "mesh", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    turntable: Option<u32>,
 }
 
-/// The light where none is given, azimuth and elevation in degrees.
-const SUN: [f64; 2] = [-40.0, 50.0];
+/// A channel of an EXR.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ChannelName {
+    /// Distance from the eye's plane: Z
+    Depth,
+    /// Normal of the surface met, in the world: normal.X, .Y, .Z
+    Normal,
+    /// Coverage of paint
+    Painted,
+    /// Height of the paint, in texel widths
+    Thickness,
+    /// Column and row of the texel met: texel.X, .Y
+    Texel,
+}
+
+/// A tone map.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ToneMapName {
+    /// Khronos PBR Neutral
+    Neutral,
+    /// What exceeds 1 is 1
+    Clip,
+}
 
 impl MeshArguments {
-    /// The mesh as typed, read from its file, if there is one. What was made up for it is told on stderr.
-    fn mesh(&self) -> Result<Option<Mesh>, CliError> {
-        let Some(path) = &self.mesh else { return Ok(None) };
-        if let Some(shape) = Shape::ALL.into_iter().find(|shape| path.as_os_str() == shape.name()) {
-            return Ok(Some(shape.mesh()));
+    /// The pictures as typed, of `material`, if they are of a mesh.
+    pub fn job(&self, material: &Path, size: [u32; 2]) -> Result<Option<Job>, CliError> {
+        let Some((mesh, warnings)) = self.mesh()? else { return Ok(None) };
+        let mut lights: Vec<_> = self.sun.iter().map(|bearing| Light::sun(*bearing, [1.0; 3])).collect();
+        lights.extend(self.lamp.iter().map(|place| Light::Point { place: (*place).into(), irradiance: [1.0; 3] }));
+        if lights.is_empty() {
+            lights = Light::pair();
         }
-        let loaded = io::mesh::load(path)?;
-        for warning in &loaded.warnings {
-            eprintln!("warning: {warning}");
-        }
-        Ok(Some(loaded.mesh))
-    }
-
-    /// How the mesh is looked at, `size` in pixels, if there is one.
-    pub fn view(&self, size: [u32; 2]) -> Result<Option<MeshView>, CliError> {
-        let Some(mesh) = self.mesh()? else { return Ok(None) };
-        let projection = match self.angle_of_view {
-            0.0 => Projection::Orthographic { height: 1.0 },
-            degrees => Projection::Perspective { field_of_view: degrees.to_radians() },
-        };
-        let (center, radius) = mesh.ball();
-        let camera = Camera::around(center, radius, self.camera.map(f64::to_radians), projection, size);
-        let suns = if self.sun.is_empty() { &[SUN][..] } else { &self.sun };
-        let sun = |bearing: &[f64; 2]| Light::Directional { toward: Camera::bearing(bearing.map(f64::to_radians)), irradiance: [1.0; 3] };
-        Ok(Some(MeshView {
+        let camera = Camera::showing(&mesh, self.camera, self.angle_of_view, size);
+        let view = MeshView {
             tiling: [self.tiling; 2],
+            shadows: !self.no_mesh_shadows,
+            silhouette: self.silhouettes,
             unpainted: (self.unpainted == Model::Lpca).then_some(self.texel_samples),
             sampling: Sampling { pictures: self.spp, ..Sampling::default() },
-            ..MeshView::new(mesh, camera, suns.iter().map(sun).collect())
+            ..MeshView::new(mesh, camera, lights)
+        };
+        let channels = self.channels.iter().map(|channel| match channel {
+            ChannelName::Depth => Channel::Depth,
+            ChannelName::Normal => Channel::Normal,
+            ChannelName::Painted => Channel::Painted,
+            ChannelName::Thickness => Channel::Thickness,
+            ChannelName::Texel => Channel::Texel,
+        });
+        let tone_map = match self.tone_map {
+            ToneMapName::Neutral => ToneMap::Neutral,
+            ToneMapName::Clip => ToneMap::Clip,
+        };
+        Ok(Some(Job {
+            material: material.to_owned(),
+            recipe: None,
+            output: None,
+            view,
+            channels: channels.collect(),
+            development: Development { exposure: self.exposure, tone_map },
+            turntable: self.turntable,
+            warnings,
         }))
     }
+
+    /// The mesh as typed and what was made up for it, if there is one.
+    fn mesh(&self) -> Result<Option<(Mesh, Vec<String>)>, CliError> {
+        let Some(path) = &self.mesh else { return Ok(None) };
+        if let Some(shape) = Shape::ALL.into_iter().find(|shape| path.as_os_str() == shape.name()) {
+            return Ok(Some((shape.mesh(), Vec::new())));
+        }
+        let loaded = io::mesh::load(path)?;
+        Ok(Some((loaded.mesh, loaded.warnings.iter().map(ToString::to_string).collect())))
+    }
+}
+
+/// Refuses what the kind of the output does not have.
+pub fn check(job: &Job, output: &Path) -> Result<(), CliError> {
+    let extension = output.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    let refuse = |message: &str| Err(Cli::command().error(ErrorKind::ArgumentConflict, message).into());
+    match (extension.as_deref(), job.turntable) {
+        (Some("mp4"), None) => refuse("a film is of a turntable; add --turntable N, or name a .png or .exr"),
+        (Some("png" | "mp4"), _) if !job.channels.is_empty() => {
+            refuse("only an .exr has further channels; name one, or leave --channels out")
+        }
+        (Some("png" | "exr"), Some(pictures)) if pictures > 1 && !name(output).contains('#') => refuse(
+            "the pictures of a turntable are numbered; put #s into the name where the number goes, such as turn_###.png, or name an .mp4",
+        ),
+        (Some("png" | "exr" | "mp4"), _) => Ok(()),
+        _ => refuse("the output must end in .png (sRGB), .exr (linear, 32-bit float) or, of a turntable, .mp4"),
+    }
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -2,6 +2,8 @@
 
 use glam::{DMat4, DVec3, DVec4, dcamera::rh, dvec3};
 
+use super::Mesh;
+
 /// How a camera projects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Projection {
@@ -43,7 +45,23 @@ pub struct Window {
     pub size: [f64; 2],
 }
 
+impl Projection {
+    /// With `degrees` between the picture's upper and lower edge; 0 is parallel rays, with a picture `height` high in the world.
+    #[must_use]
+    pub fn by_angle(degrees: f64, height: f64) -> Self {
+        if degrees == 0.0 { Self::Orthographic { height } } else { Self::Perspective { field_of_view: degrees.to_radians() } }
+    }
+}
+
 impl Camera {
+    /// A camera that sees all of `mesh` from `bearing`, azimuth and elevation in degrees as of [`Self::around`], `angle` degrees between the
+    /// upper and the lower edge, 0 for parallel rays.
+    #[must_use]
+    pub fn showing(mesh: &Mesh, bearing: [f64; 2], angle: f64, size: [u32; 2]) -> Self {
+        let (center, radius) = mesh.ball();
+        Self::around(center, radius, bearing.map(f64::to_radians), Projection::by_angle(angle, 2.0 * radius), size)
+    }
+
     /// All of the picture.
     #[must_use]
     pub fn whole(&self) -> Window {
@@ -168,6 +186,18 @@ pub struct ShadowView {
 }
 
 impl Light {
+    /// A light far away, at azimuth and elevation in degrees as of [`Camera::around`].
+    #[must_use]
+    pub fn sun(bearing: [f64; 2], irradiance: [f64; 3]) -> Self {
+        Self::Directional { toward: Camera::bearing(bearing.map(f64::to_radians)), irradiance }
+    }
+
+    /// A light from the upper left and a weak one from the right, so that no side is without any.
+    #[must_use]
+    pub fn pair() -> Vec<Self> {
+        vec![Self::sun([-40.0, 50.0], [1.0; 3]), Self::sun([70.0, 15.0], [0.25; 3])]
+    }
+
     /// What the maps have to show of a ball, `side` texels across each: all of it in one, or, from a place in the ball or near it, through the
     /// sides of a cube.
     #[must_use]

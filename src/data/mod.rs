@@ -33,7 +33,7 @@ pub use map::{Map, ShapeError};
 pub use material::{Candidate, Choice, Fit, FitStatus, Left, Lobe, Material, Provenance, Svbrdf};
 pub use mesh::{Mesh, MeshError};
 pub use mesh_tangents::across;
-pub use mesh_view::{MeshView, Sampling};
+pub use mesh_view::{Channel, MeshView, Sampling};
 pub use nearest_samples::nearest_samples;
 pub use painted::Painted;
 pub use plane_view::PlaneView;

@@ -10,6 +10,7 @@ pub mod dataset;
 mod error;
 mod group;
 mod images;
+pub mod job;
 pub mod lights;
 pub mod material;
 pub mod mesh;

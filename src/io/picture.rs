@@ -2,7 +2,7 @@
 
 use std::{io::Cursor, path::Path};
 
-use exr::prelude::{Image, ReadChannels, ReadLayers, SpecificChannels, Vec2, WritableImage};
+use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, ReadChannels, ReadLayers, SpecificChannels, Vec2, WritableImage};
 use image::{ExtendedColorType, ImageFormat};
 
 use super::IoError;
@@ -36,6 +36,30 @@ pub fn write(path: &Path, picture: &Map<[f32; 4]>) -> Result<(), IoError> {
         Format::Exr => exr_bytes(path, picture)?,
     };
     super::write(path, &bytes)
+}
+
+/// Writes linear RGBA, premultiplied, and further channels by their names, `[row][column]` each, as 32-bit floats.
+///
+/// # Errors
+/// [`IoError`] if the extension is not `.exr`, which alone has them, or the system refuses to write.
+///
+/// # Panics
+/// If a channel is not as large as the picture: the caller's bug.
+pub fn write_channels(path: &Path, picture: &Map<[f32; 4]>, channels: &[(&str, Vec<f32>)]) -> Result<(), IoError> {
+    let Format::Exr = format(path)? else {
+        return Err(IoError::Extension { path: path.to_owned(), found: ".png, which has no further channels".to_owned() });
+    };
+    let size = (picture.width(), picture.height());
+    let color = |index: usize| picture.values().iter().map(|pixel| pixel[index]).collect::<Vec<_>>();
+    let all = [("R", color(0)), ("G", color(1)), ("B", color(2)), ("A", color(3))].into_iter().chain(channels.iter().cloned());
+    let list = all.map(|(name, values)| {
+        assert_eq!(values.len(), picture.values().len(), "pixels of channel \"{name}\"");
+        AnyChannel::new(name, FlatSamples::F32(values))
+    });
+    let mut bytes = Cursor::new(Vec::new());
+    let image = Image::from_channels(size, AnyChannels::sort(list.collect()));
+    image.write().to_buffered(&mut bytes).map_err(|error| failed(path, &error))?;
+    super::write(path, &bytes.into_inner())
 }
 
 /// Reads a picture as linear RGBA, premultiplied.

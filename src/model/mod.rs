@@ -20,6 +20,7 @@ pub mod spectrum;
 pub mod stereo;
 mod synth;
 mod texel_samples;
+mod tone;
 
 pub use appearance::Appearance;
 pub use boundary::Boundary;
@@ -37,3 +38,4 @@ pub use relief::Relief;
 pub use settings::{FitSettings, SettingsError, SpecularScale, StereoMethod, SurfaceMode};
 pub use synth::{HeightField, Synth, SynthError, SynthPlace, SynthReflectance, SynthTexel};
 pub use texel_samples::TexelSamples;
+pub use tone::{Development, ToneMap};

@@ -27,6 +27,17 @@ pub enum PipelineError {
     /// A synthetic material that cannot be rendered.
     #[error(transparent)]
     Synth(#[from] SynthError),
+    /// No ffmpeg.
+    #[error("films are made by ffmpeg, which cannot be run; install it, or name numbered pictures such as turn_###.png")]
+    NoFfmpeg,
+    /// ffmpeg failed.
+    #[error("ffmpeg could not make {path}: {message}; the pictures stay, so that the same command goes on from them", path = path.display())]
+    Ffmpeg {
+        /// The film.
+        path: std::path::PathBuf,
+        /// What it says.
+        message: String,
+    },
     /// A stage refused its input.
     #[error(transparent)]
     Stage(#[from] StageError),

@@ -19,6 +19,7 @@ mod studio;
 mod swatches;
 mod synth;
 mod tiles;
+mod turntable;
 
 pub use compare::{
     AtElevation, AtElevations, CompareSettings, Comparison, PairQuality, Quality, TexelError, check_comparison, compare, compare_into,
@@ -37,3 +38,4 @@ pub use renderer::{Dressed, Renderer};
 pub use studio::{Studio, Subject};
 pub use swatches::swatches;
 pub use synth::Synthetic;
+pub use turntable::{check_ffmpeg, encode, numbered};

@@ -5,7 +5,7 @@
 
 use super::{PipelineError, Progress, Studio, tiles::run};
 use crate::{
-    data::{Camera, Map, Material, MeshView, Sampling, Window},
+    data::{Camera, Channel, Map, Material, MeshView, Sampling, Window},
     gpu::{Gpu, Target},
     model::{Relief, TexelSamples},
     render::{Lighting, Lights, MeshBuffers, MeshPass, Output, ShadowPass, Worn},
@@ -68,6 +68,20 @@ impl<'g> Renderer<'g> {
         self.show(view, surface, compressed, progress)
     }
 
+    /// Draws the shadow maps anew, of the lights of `view`; all else of `dressed` stays.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if they do not fit the adapter.
+    pub fn relight(&self, dressed: &mut Dressed, view: &MeshView, progress: &Progress) -> Result<(), PipelineError> {
+        dressed.lighting = self.light(&dressed.mesh, view, progress)?;
+        Ok(())
+    }
+
+    fn light(&self, mesh: &MeshBuffers, view: &MeshView, progress: &Progress) -> Result<Lighting, PipelineError> {
+        let lights = Lights { lights: &view.lights, around: &[], shadows: view.shadows };
+        run(self.gpu, progress, "shadow", [0, 1], |recorder| Ok::<_, PipelineError>(self.shadow.record(recorder, mesh, lights)?))
+    }
+
     /// As [`Self::dress`], of a surface that is uploaded.
     ///
     /// # Errors
@@ -76,11 +90,45 @@ impl<'g> Renderer<'g> {
         &self, view: &MeshView, surface: Surface, compressed: Option<(CompressedBtf, TexelSamples)>, progress: &Progress,
     ) -> Result<Dressed, PipelineError> {
         let mesh = MeshBuffers::upload(self.gpu, &view.mesh, view.tiling)?;
-        let lights = Lights { lights: &view.lights, around: &[], shadows: view.shadows };
-        let lighting =
-            run(self.gpu, progress, "shadow", [0, 1], |recorder| Ok::<_, PipelineError>(self.shadow.record(recorder, &mesh, lights)?))?;
+        let lighting = self.light(&mesh, view, progress)?;
         let MeshView { relief, silhouette, sampling, .. } = *view;
         Ok(Dressed { mesh, surface, compressed, lighting, relief, silhouette, sampling })
+    }
+
+    /// What `channels` tell of `dressed`, seen by `camera`, by the names of their layers in a file, `[row][column]` each, 0 where nothing is.
+    /// `material` is what it wears.
+    ///
+    /// # Errors
+    /// As [`Self::picture`].
+    pub fn channels(
+        &self, dressed: &Dressed, camera: &Camera, material: &Material, channels: &[Channel], progress: &Progress,
+    ) -> Result<Vec<(&'static str, Vec<f32>)>, PipelineError> {
+        let asked = |of: &[Channel]| of.iter().any(|channel| channels.contains(channel));
+        let draw = |output| self.picture(dressed, camera, output, progress);
+        let geometry = asked(&[Channel::Depth, Channel::Normal]).then(|| draw(Output::Geometry)).transpose()?;
+        let paint = asked(&[Channel::Painted, Channel::Thickness, Channel::Texel]).then(|| draw(Output::Paint)).transpose()?;
+        let component =
+            |of: &Option<Map<[f32; 4]>>, index: usize| of.iter().flat_map(|map| map.values()).map(|value| value[index]).collect::<Vec<_>>();
+        let thickness = |value: &[f32; 4]| match &material.painted {
+            Some(painted) => {
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a texel's column and row")]
+                let at = (value[2] as usize, value[3] as usize);
+                painted.height[at] - material.height[at]
+            }
+            None => 0.0,
+        };
+        let mut all = Vec::new();
+        for channel in channels {
+            let values = match channel {
+                Channel::Depth => vec![component(&geometry, 3)],
+                Channel::Normal => vec![component(&geometry, 0), component(&geometry, 1), component(&geometry, 2)],
+                Channel::Painted => vec![component(&paint, 0)],
+                Channel::Thickness => vec![paint.iter().flat_map(|map| map.values()).map(thickness).collect()],
+                Channel::Texel => vec![component(&paint, 2), component(&paint, 3)],
+            };
+            all.extend(channel.layers().iter().copied().zip(values));
+        }
+        Ok(all)
     }
 
     /// What `output` says of `dressed`, seen by `camera`, `[row][column]`, 0 where nothing is. Of a radiance it is the mean of as many

@@ -119,11 +119,17 @@ impl<'a> Table<'a> {
 
     /// The table itself, if it has no keys but these. The first that is another is the fault.
     pub fn only(self, keys: &[&str]) -> Outcome<Self> {
+        self.check(keys)?;
+        Ok(self)
+    }
+
+    /// Whether it has no keys but these.
+    pub fn check(&self, keys: &[&str]) -> Outcome<()> {
         let unknown = self.entries.keys().filter(|key| !keys.contains(&&**key.get_ref())).min_by_key(|key| key.span().start);
         match unknown {
-            None => Ok(self),
+            None => Ok(()),
             Some(key) => {
-                let fault = RecipeFault::UnknownKey { key: shortened(key.get_ref()), of: self.what, known: keys.join(", ") };
+                let fault = RecipeFault::UnknownKey { key: shortened(key.get_ref()), of: self.what.clone(), known: keys.join(", ") };
                 Err(Placed::new(key.span(), fault))
             }
         }
@@ -213,6 +219,11 @@ impl<'a> Value<'a> {
             DeValue::Table(_) => "a table".to_owned(),
         };
         self.fault(RecipeFault::Type { key: shortened(self.key), expected, found })
+    }
+
+    /// Whether it is an array.
+    pub fn is_array(self) -> bool {
+        self.value.get_ref().is_array()
     }
 
     /// Whether it is a string.

@@ -63,6 +63,36 @@ pub enum RecipeFault {
         /// What it is.
         found: String,
     },
+    /// Two keys that exclude each other.
+    #[error("{of} has \"{first}\" and \"{second}\"; keep one")]
+    Both {
+        /// What has them.
+        of: String,
+        /// One key.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// A number out of its range, or several of which one is.
+    #[error("\"{key}\" must be {expected}, found {found}")]
+    Bounds {
+        /// The key.
+        key: String,
+        /// What it is.
+        found: String,
+        /// What it must be.
+        expected: String,
+    },
+    /// A name that is none of those known.
+    #[error("\"{key}\" has no \"{found}\"; there are {known}")]
+    Choice {
+        /// The key.
+        key: String,
+        /// The name.
+        found: String,
+        /// The names there are.
+        known: String,
+    },
     /// A file that the recipe names and that cannot be read.
     #[error("{0}")]
     File(Box<IoError>),
