@@ -16,7 +16,7 @@ struct Camera {
     lights: u32,
     // what is drawn: one of the OUTPUT constants
     output: u32,
-    // 1: rays that leave the sheet of texture coordinates 0 to 1 before they meet the relief see through it
+    // 1: rays that leave the sheet before they meet the relief see through it
     silhouette: u32,
     // levels of `painted`
     levels: u32,
@@ -24,8 +24,8 @@ struct Camera {
     rays: u32,
     // how wide a part of a pixel the picture stands for, of one whose pixels are means of several pictures
     footprint: f32,
-    _pad0: u32,
-    _pad1: u32,
+    // texels across and down the sheet of the mesh's texture coordinates from 0 to 1
+    sheet: vec2<f32>,
 }
 
 const OUTPUT_RADIANCE: u32 = 0u;
@@ -145,10 +145,9 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> Pixel {
     view = normalize(vec3(view.xy, max(view.z, LOWEST_VIEW)));
     let hit = first_hit(in.place, view);
     if camera.silhouette == 1u {
-        let sheet = vec2(f32(scene.width), f32(scene.height));
         // v runs from 0 at the lower edge up, rows from there down.
-        let inside = vec2(hit.place.x + 0.5, hit.place.y + 0.5 + sheet.y);
-        if any(inside < vec2(0.0)) || any(inside >= sheet) {
+        let inside = vec2(hit.place.x + 0.5, hit.place.y + 0.5 + camera.sheet.y);
+        if any(inside < vec2(0.0)) || any(inside >= camera.sheet) {
             discard;
         }
     }

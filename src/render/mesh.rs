@@ -29,8 +29,7 @@ gpu_struct! {
         levels: u32,
         rays: u32,
         footprint: f32,
-        _pad0: u32,
-        _pad1: u32,
+        sheet: [f32; 2],
     }
 }
 gpu_struct! {
@@ -67,6 +66,7 @@ pub struct MeshBuffers {
     pub(super) vertices: Buffer<Vertex>,
     pub(super) corners: Buffer<u32>,
     ball: (DVec3, f64),
+    tiling: [f32; 2],
 }
 
 impl MeshBuffers {
@@ -91,7 +91,7 @@ impl MeshBuffers {
             })
             .collect();
         let corners = gpu.upload("corners", mesh.triangles().as_flattened())?;
-        Ok(Self { vertices: gpu.upload("vertices", &vertices)?, corners, ball: mesh.ball() })
+        Ok(Self { vertices: gpu.upload("vertices", &vertices)?, corners, ball: mesh.ball(), tiling: [across, up] })
     }
 
     /// Center and radius of a ball around the mesh.
@@ -140,6 +140,8 @@ impl MeshPass {
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
         let scene: Buffer<Scene> = worn.surface.unlit_scene(gpu, worn.relief)?;
+        #[expect(clippy::cast_precision_loss, reason = "columns and rows")]
+        let texels = worn.surface.field.size.map(|side| side as f32);
         let [clip_x, clip_y, clip_z, clip_w] = clip_rows(camera.clip_from_world(window));
         let params = CameraParams {
             lights: lighting.count(),
@@ -153,6 +155,7 @@ impl MeshPass {
             clip_y,
             clip_z,
             clip_w,
+            sheet: [0, 1].map(|axis| mesh.tiling[axis] * texels[axis]),
             ..Default::default()
         };
         let camera = gpu.uniform("camera", &params)?;

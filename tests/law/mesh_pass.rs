@@ -1,9 +1,11 @@
 use glam::{DVec3, dvec3};
 use overpaint::{
-    data::{Camera, Direction, Light, Map, Mesh, Projection, Shape},
+    data::{Camera, Direction, Light, Map, Mesh, MeshView, Projection, Sampling, Shape},
     gpu::Gpu,
     model::{Boundary, Relief},
+    pipeline::{Progress, Renderer},
     render::Output,
+    stage::Minify,
 };
 
 use crate::{
@@ -14,7 +16,7 @@ use crate::{
     },
 };
 
-crate::suite! { gpu: the_plane_from_above_is_the_reconstruction, a_plateau_has_its_depth, a_mirrored_light_gives_the_mirrored_picture, a_point_light_far_away_is_directional; }
+crate::suite! { gpu: the_plane_from_above_is_the_reconstruction, a_plateau_has_its_depth, a_mirrored_light_gives_the_mirrored_picture, a_point_light_far_away_is_directional, flat_height_is_a_plain_texture, no_paint_is_the_bare_material, white_paint_sends_back_what_it_gets, a_far_material_keeps_its_mean_and_does_not_shimmer, a_turn_is_a_turn_of_the_mesh; }
 
 const PARALLEL: Projection = Projection::Orthographic { height: 1.0 };
 
@@ -89,4 +91,132 @@ fn a_point_light_far_away_is_directional(gpu: &Gpu) {
         // The direction differs by up to 1e-4 from one end of the mesh to the other, and the distance as much; a shadow's edge magnifies it.
         hold("mesh: a point light far away", errors.worst(), 0.02);
     }
+}
+
+/// Of a level material's reflectance a ray sees just that of the texel it crosses, whatever its angle: the picture of a plane is that of a
+/// texture of the same reflectance.
+fn flat_height_is_a_plain_texture(gpu: &Gpu) {
+    let mut surface = plain(8, 8);
+    surface.diffuse = Map::from_fn(8, 8, |column, row| [0.1 * column as f64, 0.1 * row as f64, 0.3]);
+    let camera = Camera::around(DVec3::ZERO, 1.4, [0.4, 0.5], Projection::Perspective { field_of_view: 0.5 }, [90, 70]);
+    let drawn = draw(gpu, &view(Shape::Plane.mesh(), [1.0; 2], camera, &directional(DVec3::Z)), &surface, Output::Radiance);
+    let mut errors = Vec::new();
+    for (row, column) in (0..70).flat_map(|row| (0..90).map(move |column| (row, column))) {
+        let [origin, direction] = camera.ray([column as f64 + 0.5, row as f64 + 0.5]);
+        let at = origin - origin.z / direction.z * direction;
+        // Between the middles of the outermost texels, where the bilinear mean of the ramps is the ramps themselves.
+        let place = [4.0 * (at.x + 1.0) - 0.5, 4.0 * (1.0 - at.y) - 0.5];
+        if place.iter().all(|&x| (0.0..7.0).contains(&x)) {
+            let seen = drawn[(column, row)];
+            errors.push((f64::from(seen[0]) - 0.1 * place[0]).abs().max((f64::from(seen[1]) - 0.1 * place[1]).abs()));
+        }
+    }
+    assert!(errors.len() > 1000, "the plane is seen");
+    // Places are good to 2^-16 of the picture.
+    hold("mesh: a level material is a texture", errors.into_iter().worst(), 2e-4);
+}
+
+/// Paint that covers nothing changes no bit, whatever its colour and coat.
+fn no_paint_is_the_bare_material(gpu: &Gpu) {
+    let mut bare = bumpy(32, 32, Boundary::Periodic, 8);
+    bare.painted = bare.painted.map(|_| [0.0; 4]);
+    let mut none = bare.clone();
+    none.painted = none.painted.map(|_| [0.9, 0.1, 0.4, 0.0]);
+    none.coat = none.coat.map(|_| [0.2, 0.1]);
+    let camera = Camera::around(DVec3::ZERO, 1.4, [0.4, 0.5], Projection::Perspective { field_of_view: 0.5 }, [64, 64]);
+    let show = |surface| draw(gpu, &view(Shape::Sphere.mesh(), [2.0; 2], camera, &directional(dvec3(0.2, 0.5, 1.0))), surface, Output::Radiance);
+    assert!(show(&bare).values() == show(&none).values(), "nothing is painted");
+}
+
+/// White paint under a sky of 1 everywhere sends back, towards any view, no more than it gets, and most of it: what its coat does not mirror
+/// goes into the paint and comes out again.
+fn white_paint_sends_back_what_it_gets(gpu: &Gpu) {
+    // Lights even on the disc that the dome projects to (Vogel 1979: a sunflower's), where each has the same irradiance on the plane.
+    let sky: Vec<_> = (0..400)
+        .map(|index| {
+            let (radius, turn) = (((f64::from(index) + 0.5) / 400.0).sqrt(), 2.399_963_229_728_653 * f64::from(index));
+            let toward = dvec3(radius * turn.cos(), radius * turn.sin(), (1.0 - radius * radius).sqrt());
+            Light::Directional { toward, irradiance: [1.0 / 400.0 / toward.z; 3] }
+        })
+        .collect();
+    let mut surface = plain(4, 4);
+    surface.painted = surface.painted.map(|_| [1.0; 4]);
+    for f0 in [0.0, 0.04, 0.25] {
+        surface.coat = surface.coat.map(|_| [f0, 1.0]);
+        for angle in [0.05_f64, 0.4, 0.8, 1.2] {
+            let toward = dvec3(angle.sin(), 0.0, angle.cos());
+            let camera = Camera { eye: 3.0 * toward, depths: [0.5, 6.0], ..above([9, 9]) };
+            let seen = draw(gpu, &view(Shape::Plane.mesh(), [1.0; 2], camera, &sky), &surface, Output::Radiance)[(4, 4)][0];
+            // A coat as rough as this mirrors up to 0.4 of what comes and, counting no light that meets two facets, loses up to half of that; the
+            // sum over lights is good to a part in a thousand.
+            hold("mesh: white paint under a white sky, above 1", (f64::from(seen) - 1.0).max(0.0), 1e-3);
+            hold("mesh: white paint under a white sky, below 1", (1.0 - f64::from(seen)).max(0.0), 0.2);
+        }
+    }
+}
+
+/// A chequerboard of paint of whose squares a pixel covers many: its picture has the colours' mean, and moving the camera by parts of a pixel
+/// changes next to nothing, where one ray on the finest level sees one square or the other.
+fn a_far_material_keeps_its_mean_and_does_not_shimmer(gpu: &Gpu) {
+    let mut surface = plain(64, 64);
+    surface.painted = Map::from_fn(64, 64, |column, row| if (column / 2 + row / 2) % 2 == 0 { [0.8, 0.8, 0.8, 1.0] } else { [0.2, 0.2, 0.2, 1.0] });
+    surface.coat = surface.coat.map(|_| [0.0, 1.0]);
+    let renderer = Renderer::new(gpu).expect("builds");
+    let progress = Progress::new(gpu.adapter());
+    let shimmer = |rays: u32, levels: bool| {
+        let mut uploaded = upload(gpu, &surface);
+        if levels {
+            let mut recorder = gpu.recorder();
+            Minify::new(gpu).expect("builds").record(&mut recorder, &mut uploaded).expect("records");
+            gpu.submit(recorder).wait(gpu).expect("runs");
+        }
+        let camera = above([40, 40]);
+        let far = MeshView { sampling: Sampling { rays, pictures: 1 }, ..view(Shape::Plane.mesh(), [4.3; 2], camera, &directional(DVec3::Z)) };
+        let dressed = renderer.show(&far, uploaded, None, &progress).expect("fits");
+        let pictures: Vec<_> = (0..8)
+            .map(|step| {
+                let aside = dvec3(0.0071, 0.0043, 0.0) * f64::from(step);
+                let camera = Camera { eye: camera.eye + aside, target: camera.target + aside, ..camera };
+                renderer.picture(&dressed, &camera, Output::Radiance, &progress).expect("fits")
+            })
+            .collect();
+        let inner = || (5..35).flat_map(|row| (5..35).map(move |column| (column, row)));
+        let spread = inner().map(|at| {
+            let values: Vec<_> = pictures.iter().map(|picture| f64::from(picture[at][0])).collect();
+            values.iter().copied().fold(0.0, f64::max) - values.iter().copied().fold(1.0, f64::min)
+        });
+        let mean = inner().map(|at| f64::from(pictures[0][at][0])).sum::<f64>() / 900.0;
+        (spread.sum::<f64>() / 900.0, mean)
+    };
+    let (lone, _) = shimmer(1, false);
+    let (spread, mean) = shimmer(2, true);
+    // Alone, a ray sees 0.8 or 0.2. Seen and lit along the normal the paint has 21/20 of its reflectance, what the coat leaves of 20/21 on average.
+    assert!(lone > 0.3, "one ray shimmers by {lone}");
+    hold("mesh: shimmer of a far chequerboard", spread, 0.03);
+    hold("mesh: mean of a far chequerboard", (mean - 0.5 * 21.0 / 20.0).abs(), 1e-4);
+}
+
+fn a_turn_is_a_turn_of_the_mesh(gpu: &Gpu) {
+    let surface = bumpy(32, 32, Boundary::Periodic, 9);
+    let camera = Camera::around(DVec3::ZERO, 1.0, [0.2, 0.3], Projection::Perspective { field_of_view: 0.5 }, [64, 64]);
+    let still = view(Shape::Plane.mesh(), [1.0; 2], camera, &directional(dvec3(0.5, 0.3, 1.0)));
+    let angle: f64 = 0.4;
+    let turn = |[x, y, z]: [f32; 3]| {
+        let (sine, cosine) = (angle.sin() as f32, angle.cos() as f32);
+        [cosine * x + sine * z, y, cosine * z - sine * x]
+    };
+    let mesh = &still.mesh;
+    let turned = Mesh::new(
+        mesh.positions().iter().map(|&place| turn(place)).collect(),
+        mesh.normals().iter().map(|&normal| turn(normal)).collect(),
+        mesh.tangents().iter().map(|&[x, y, z, w]| { let [x, y, z] = turn([x, y, z]); [x, y, z, w] }).collect(),
+        mesh.texture_coordinates().to_vec(),
+        mesh.triangles().to_vec(),
+    )
+    .expect("is a mesh");
+    let one = draw(gpu, &still.turned(angle), &surface, Output::Radiance);
+    let other = draw(gpu, &MeshView { mesh: turned, ..still }, &surface, Output::Radiance);
+    let errors = one.values().iter().zip(other.values()).filter(|(a, b)| (0..4).any(|c| (a[c] - b[c]).abs() > 5e-3));
+    // Pixels whose centre lies on the outline, or on an edge of the relief.
+    hold("mesh: pixels that a turn changes", errors.count() as f64 / 4096.0, 0.01);
 }
