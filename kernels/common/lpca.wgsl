@@ -67,24 +67,51 @@ fn component_weight(texel: u32, component: u32) -> f32 {
     return unpack2x16float(texels[(1u + component / 2u) * btf.width * btf.height + texel])[component % 2u];
 }
 
+// The most texels that a place is interpolated from.
+const MAX_TAPS: u32 = 25u;
+
 // Radiance that leaves a place of the base plane; black below the horizon. Eigenvectors may take it below 0, which no radiance is:
-// it is held to 0 last, when all is interpolated.
+// it is held to 0 last, when all is interpolated. Texels of one cluster, as neighbours mostly are, share its terms: their weights are summed
+// before a term is interpolated between the pairs, which is what takes time.
 fn compressed_radiance(place: vec2<f32>, view: vec3<f32>, light: vec3<f32>) -> vec3<f32> {
     var pairs = measured_pairs(view, light);
     let footprint = footprint_at(place, btf.texel_samples);
-    var radiance = vec3(0.0);
+    let taps = footprint.width * footprint.width;
+    var texel: array<u32, MAX_TAPS>;
+    var weight: array<f32, MAX_TAPS>;
     var total = 0.0;
-    for (var index = 0u; index < footprint.width * footprint.width; index++) {
+    for (var index = 0u; index < taps; index++) {
         let tap = tap_at(footprint, index);
-        if tap.weight > 0.0 {
-            let texel = texel_index(tap.texel);
-            let cluster = texels[texel];
-            var own = term_of(&pairs, cluster, 0u);
-            for (var component = 0u; component < btf.components; component++) {
-                own += component_weight(texel, component) * term_of(&pairs, cluster, 1u + component);
+        texel[index] = texel_index(tap.texel);
+        weight[index] = tap.weight;
+        total += tap.weight;
+    }
+    var radiance = vec3(0.0);
+    for (var first = 0u; first < taps; first++) {
+        if weight[first] == 0.0 {
+            continue;
+        }
+        let cluster = texels[texel[first]];
+        // Taps of this cluster, as bits.
+        var members = 0u;
+        var share = 0.0;
+        for (var index = first; index < taps; index++) {
+            if weight[index] > 0.0 && texels[texel[index]] == cluster {
+                members |= 1u << index;
+                share += weight[index];
             }
-            radiance += tap.weight * own;
-            total += tap.weight;
+        }
+        radiance += share * term_of(&pairs, cluster, 0u);
+        for (var component = 0u; component < btf.components; component++) {
+            var own = 0.0;
+            for (var rest = members; rest != 0u; rest &= rest - 1u) {
+                let index = firstTrailingBit(rest);
+                own += weight[index] * component_weight(texel[index], component);
+            }
+            radiance += own * term_of(&pairs, cluster, 1u + component);
+        }
+        for (var rest = members; rest != 0u; rest &= rest - 1u) {
+            weight[firstTrailingBit(rest)] = 0.0;
         }
     }
     return max(radiance / total, vec3(0.0));

@@ -1,11 +1,17 @@
 //! `overpaint figures`.
 
-use std::{fs, path::PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 
-use super::{CliError, output, say, session::SessionArguments};
-use crate::{io, pipeline};
+use super::{CliError, model::misplaced, output, say, session::SessionArguments};
+use crate::{
+    io,
+    pipeline::{self, Pictured},
+};
 
 /// Make the figures of painted materials that the thesis has, as one illustrated page.
 #[derive(Debug, Args)]
@@ -14,10 +20,18 @@ Examples:
   overpaint figures -o figures
   overpaint figures cloth.zarr blocks.zarr -o figures
 
-Each material has its own figures: the whole sample under watercolours and under oils (4.3, 4.4), and paint against alpha blending (4.5, 4.6).")]
+Each material has its own figures: what was measured and recovered (3.2, 4.1, 4.2), if its source is named; the whole sample under watercolours
+and under oils (4.3, 4.4), and paint against alpha blending (4.5, 4.6); and on models what the bare part is made from (4.7, 4.8), patterns and
+refractive indices (4.9 to 4.12), thickness (4.13, 4.14) and layers (4.15, 4.16).")]
 pub struct Figures {
     /// The materials, as `fit` wrote them; without one the sample inside this program, which is fitted first
     materials: Vec<PathBuf>,
+    /// The BTF that a material was recovered from; of several materials, as many times and in their order
+    #[arg(long, value_name = "SOURCE")]
+    source: Vec<PathBuf>,
+    /// A model to show painted, beside the built-in ones: .obj, .gltf or .glb; may be given several times
+    #[arg(long, value_name = "MESH")]
+    mesh: Vec<PathBuf>,
     /// Folder for figures.html and its pictures
     #[arg(short, long, value_name = "DIR", default_value = "figures")]
     output: PathBuf,
@@ -29,15 +43,27 @@ impl Figures {
         let page = self.output.join(pipeline::FIGURES);
         output::check_file(&page)?;
         let mut materials = Vec::new();
-        for path in &self.materials {
-            let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-            materials.push((name, io::material::load(path)?));
+        if !self.source.is_empty() && self.source.len() != self.materials.len() {
+            return Err(misplaced("there must be one --source for each material, or none"));
+        }
+        let name = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        for (index, path) in self.materials.iter().enumerate() {
+            let source = self.source.get(index).map(|source| io::open(source)).transpose()?;
+            materials.push(Pictured { name: name(path), material: io::material::load(path)?, source });
+        }
+        let mut models = Vec::new();
+        for path in &self.mesh {
+            let loaded = io::mesh::load(path)?;
+            for warning in &loaded.warnings {
+                eprintln!("warning: {warning}");
+            }
+            models.push((name(path), loaded.mesh));
         }
         let session = session.open()?;
         if materials.is_empty() {
-            materials.push((pipeline::SAMPLE_NAME.to_owned(), pipeline::fit_sample(&session.gpu, &session.progress)?));
+            materials.push(Pictured::sample(&session.gpu, &session.progress)?);
         }
-        pipeline::figures(&session.gpu, &materials, &self.output, &session.progress)?;
+        pipeline::figures(&session.gpu, &materials, models, &self.output, &session.progress)?;
         let times = session.finish()?;
         say(&format!("{times}\nwrote {}", page.display()))
     }

@@ -95,7 +95,7 @@ impl MeshArguments {
         if lights.is_empty() {
             lights = Light::pair();
         }
-        let camera = Camera::showing(&mesh, self.camera, self.angle_of_view, size);
+        let camera = Camera::showing(&mesh, self.camera, self.angle_of_view, size, self.turntable.is_some());
         let view = MeshView {
             tiling: [self.tiling; 2],
             shadows: !self.no_mesh_shadows,

@@ -1,6 +1,8 @@
 //! Cameras and lights in the world: right-handed, y up, lengths in units of the mesh.
 
-use glam::{DMat4, DVec3, DVec4, dcamera::rh, dvec3};
+use std::f64::consts::TAU;
+
+use glam::{DMat4, DQuat, DVec3, DVec4, dcamera::rh, dvec3};
 
 use super::Mesh;
 
@@ -55,11 +57,38 @@ impl Projection {
 
 impl Camera {
     /// A camera that sees all of `mesh` from `bearing`, azimuth and elevation in degrees as of [`Self::around`], `angle` degrees between the
-    /// upper and the lower edge, 0 for parallel rays.
+    /// upper and the lower edge, 0 for parallel rays: as near as it can be with a twentieth of the picture left free around it. With `turning`
+    /// the mesh may turn about the vertical axis through its middle.
     #[must_use]
-    pub fn showing(mesh: &Mesh, bearing: [f64; 2], angle: f64, size: [u32; 2]) -> Self {
+    pub fn showing(mesh: &Mesh, bearing: [f64; 2], angle: f64, size: [u32; 2], turning: bool) -> Self {
+        /// Directions that stand for a whole turn.
+        const TURNS: u32 = 32;
+        const MARGIN: f64 = 0.05;
         let (center, radius) = mesh.ball();
-        Self::around(center, radius, bearing.map(f64::to_radians), Projection::by_angle(angle, 2.0 * radius), size)
+        let camera = Self::around(center, radius, bearing.map(f64::to_radians), Projection::by_angle(angle, 2.0 * radius), size);
+        let toward = camera.toward();
+        let right = camera.up.cross(toward).normalize();
+        let up = toward.cross(right);
+        // Half of the picture's width, of its height 1.
+        let aspect = f64::from(size[0]) / f64::from(size[1]);
+        let turns = if turning { TURNS } else { 1 };
+        let places = (0..turns).flat_map(|turn| {
+            let turn = DQuat::from_rotation_y(f64::from(turn) / f64::from(turns) * TAU);
+            mesh.positions().iter().map(move |&place| turn * (DVec3::from_array(place.map(f64::from)) - center))
+        });
+        let reach = |place: DVec3| (place.dot(right).abs() / aspect).max(place.dot(up).abs()) * (1.0 + MARGIN);
+        match camera.projection {
+            Projection::Perspective { field_of_view } => {
+                let half = (0.5 * field_of_view).tan();
+                let distance = places.map(|place| place.dot(toward) + reach(place) / half).fold(0.0, f64::max).max(1e-3 * radius);
+                let depths = [(distance - radius).max(1e-3 * distance), distance + radius];
+                Self { eye: center + distance * toward, depths, ..camera }
+            }
+            Projection::Orthographic { .. } => {
+                let height = 2.0 * places.map(reach).fold(0.0, f64::max);
+                Self { projection: Projection::Orthographic { height }, ..camera }
+            }
+        }
     }
 
     /// All of the picture.

@@ -123,9 +123,10 @@ fn job(root: &Table<'_>, folder: &Path) -> Outcome<Job> {
             lights.into_iter().map(light).collect::<Outcome<_>>()?
         }
     };
+    let turning = root.get("turntable").is_some();
     let camera = match root.get("camera") {
-        None => Camera::showing(&mesh, MeshView::BEARING, MeshView::ANGLE_OF_VIEW, size),
-        Some(value) => camera(&value.table("the camera")?, &mesh, size)?,
+        None => Camera::showing(&mesh, MeshView::BEARING, MeshView::ANGLE_OF_VIEW, size, turning),
+        Some(value) => camera(&value.table("the camera")?, &mesh, size, turning)?,
     };
     let texel_samples = root.get("texel_samples").map(texel_samples).transpose()?;
     let view = MeshView {
@@ -166,14 +167,14 @@ fn named_mesh(table: &Table<'_>, folder: &Path) -> Outcome<(Mesh, Vec<String>)> 
     }
 }
 
-fn camera(table: &Table<'_>, mesh: &Mesh, size: [u32; 2]) -> Outcome<Camera> {
+fn camera(table: &Table<'_>, mesh: &Mesh, size: [u32; 2], turning: bool) -> Outcome<Camera> {
     table.check(&["azimuth", "elevation", "eye", "target", "angle_of_view"])?;
     let angle = within(table, "angle_of_view", table.number("angle_of_view", MeshView::ANGLE_OF_VIEW)?, [0.0, 170.0])?;
     let Some(eye) = table.get("eye") else {
         if let Some(target) = table.get("target") {
             return Err(target.fault(RecipeFault::Missing { key: "eye", of: table.what().to_owned(), example: "eye = [0, 1, 4]" }));
         }
-        return Ok(Camera::showing(mesh, bearing(table, MeshView::BEARING)?, angle, size));
+        return Ok(Camera::showing(mesh, bearing(table, MeshView::BEARING)?, angle, size, turning));
     };
     if let Some(value) = table.get("azimuth").or(table.get("elevation")) {
         return Err(value.fault(RecipeFault::Both { of: table.what().to_owned(), first: "eye", second: "azimuth or elevation" }));

@@ -1,14 +1,18 @@
-//! The figures of the thesis, on any material: whole samples under paint, and paint against alpha blending.
+//! The figures of the thesis, on any material: what was measured and recovered, whole samples under paint, paint against alpha blending, and
+//! painted models ([`figures_on_meshes`](super::figures_on_meshes)).
 
 use std::path::Path;
 
 use super::{
-    Painter, PipelineError, Progress, Studio,
+    Painter, PipelineError, Progress, Renderer, Studio, demo,
+    figures_on_meshes::OnMeshes,
+    measured::Measured,
     report::{Cell, Figure, Report, Row},
 };
 use crate::{
-    data::{Direction, Map, Material, PlaneView, Recipe},
+    data::{Direction, Map, Material, Mesh, PlaneView, Recipe},
     gpu::Gpu,
+    io::Source,
     model::{Layer, Paint, PaintMethod, Pattern, Relief, pigments},
 };
 
@@ -53,25 +57,57 @@ const SIZE: [u32; 2] = [384, 344];
 /// Texels that are shown along each edge at least: smaller samples lie side by side.
 const LEAST_TEXELS: usize = 64;
 
-/// Makes the figures of each of `materials`, which go by their names, and writes them with their page into `folder`, which must exist.
+/// A material to make figures of.
+#[derive(Debug)]
+pub struct Pictured {
+    /// What it goes by.
+    pub name: String,
+    /// It.
+    pub material: Material,
+    /// What it was recovered from, if it is at hand.
+    pub source: Option<Box<dyn Source>>,
+}
+
+impl Pictured {
+    /// The sample inside this program, which is fitted first.
+    ///
+    /// # Errors
+    /// [`PipelineError`] if a stage fails.
+    pub fn sample(gpu: &Gpu, progress: &Progress) -> Result<Self, PipelineError> {
+        Ok(Self { name: demo::SAMPLE_NAME.to_owned(), material: demo::fit_sample(gpu, progress)?, source: Some(demo::sample()?) })
+    }
+}
+
+/// Makes the figures of each of `materials`, on `models` beside the built-in ones, and writes them with their page into `folder`, which must
+/// exist.
 ///
 /// # Errors
 /// [`PipelineError::Painted`] if a material is painted already, others if a stage fails or a file cannot be written.
-pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progress: &Progress) -> Result<(), PipelineError> {
-    if materials.iter().any(|(_, material)| material.painted.is_some()) {
+pub fn figures(
+    gpu: &Gpu, materials: &[Pictured], models: Vec<(String, Mesh)>, folder: &Path, progress: &Progress,
+) -> Result<(), PipelineError> {
+    if materials.iter().any(|pictured| pictured.material.painted.is_some()) {
         return Err(PipelineError::Painted);
     }
-    let (studio, painter) = (Studio::new(gpu)?, Painter::new(gpu)?);
+    let (studio, painter, renderer) = (Studio::new(gpu)?, Painter::new(gpu)?, Renderer::new(gpu)?);
+    let models = OnMeshes::models(models);
     let introduction = format!(
         "Painted by overpaint {} on {}. View and light are given as θ from the normal and φ counter-clockwise from the right, in degrees.",
         env!("CARGO_PKG_VERSION"),
         gpu.adapter().name
     );
     let mut report = Report::new(folder, "Painted materials", &introduction);
-    for (index, (name, material)) in materials.iter().enumerate() {
+    for (index, Pictured { name, material, source }) in materials.iter().enumerate() {
         // Names may be alike, and need not be fit for files or addresses.
         let plain: String = name.chars().filter(|letter| letter.is_ascii_alphanumeric() || "-_".contains(*letter)).collect();
         let stem = format!("{}_{plain}", index + 1);
+        if let Some(source) = source {
+            let measured = Measured { source: source.as_ref(), material, studio: &studio, progress };
+            for (number, figure) in [("3.2", measured.recovered()?), ("4.1", measured.above()?), ("4.2", measured.oblique()?)] {
+                let title = format!("{} (thesis fig. {number}): {name}", figure.title);
+                report.figure(&Figure { stem: format!("{stem}_{}", number.replace('.', "_")), title, ..figure })?;
+            }
+        }
         let job = Job { name, stem, material, studio: &studio, painter: &painter, progress };
         for (number, title, paints) in WHOLE {
             report.figure(&job.whole(number, title, &paints)?)?;
@@ -79,20 +115,22 @@ pub fn figures(gpu: &Gpu, materials: &[(String, Material)], folder: &Path, progr
         for (number, title, paint, thickness) in BLENDED {
             report.figure(&job.blended(number, title, paint, thickness)?)?;
         }
+        let on_meshes = OnMeshes { job: &job, renderer: &renderer, models: &models };
+        on_meshes.figures(&mut report)?;
     }
     report.finish(FIGURES, &progress.report())?;
     Ok(())
 }
 
 /// What the figures of one material are made from.
-struct Job<'a> {
-    name: &'a str,
+pub(super) struct Job<'a> {
+    pub name: &'a str,
     /// What the names of its files begin with.
     stem: String,
-    material: &'a Material,
-    studio: &'a Studio<'a>,
-    painter: &'a Painter<'a>,
-    progress: &'a Progress,
+    pub material: &'a Material,
+    pub studio: &'a Studio<'a>,
+    pub painter: &'a Painter<'a>,
+    pub progress: &'a Progress,
 }
 
 impl Job<'_> {
@@ -142,7 +180,8 @@ impl Job<'_> {
         Ok(self.figure(number, title, caption, DRAWN.map(|drawn| format!("{} %", 100.0 * drawn)).to_vec(), rows))
     }
 
-    fn figure(&self, number: &str, title: &str, caption: String, columns: Vec<String>, rows: Vec<Row>) -> Figure {
+    /// A figure of this material by its number.
+    pub fn figure(&self, number: &str, title: &str, caption: String, columns: Vec<String>, rows: Vec<Row>) -> Figure {
         let stem = format!("{}_{}", self.stem, number.replace('.', "_"));
         Figure { stem, title: format!("{title} (thesis fig. {number}): {}", self.name), caption, columns, rows }
     }

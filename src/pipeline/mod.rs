@@ -5,10 +5,12 @@ mod demo;
 mod error;
 mod export;
 mod figures;
+mod figures_on_meshes;
 mod fit;
 mod geometry;
 mod import;
 mod lpca;
+mod measured;
 mod memory;
 mod paint;
 mod progress;
@@ -24,10 +26,10 @@ mod turntable;
 pub use compare::{
     AtElevation, AtElevations, CompareSettings, Comparison, PairQuality, Quality, TexelError, check_comparison, compare, compare_into,
 };
-pub use demo::{REPORT, SAMPLE_NAME, demo, fit_sample};
+pub use demo::{REPORT, demo};
 pub use error::PipelineError;
 pub use export::export_tree;
-pub use figures::{FIGURES, figures};
+pub use figures::{FIGURES, Pictured, figures};
 pub use fit::{check_fit, fit, fit_job, fit_within};
 pub use import::{Imported, import};
 pub use lpca::lpca;

@@ -3,7 +3,7 @@ use overpaint::{
     gpu::Gpu,
     io::material,
     model::{HeightField, Layer, Paint, PaintMethod, Pattern, Relief, Synth, SynthReflectance, pigments},
-    pipeline::{FIGURES, Painter, Progress, Studio, Synthetic, figures, swatches},
+    pipeline::{FIGURES, Pictured, Painter, Progress, Studio, Synthetic, figures, swatches},
 };
 
 use crate::support::{Worst, hold};
@@ -174,24 +174,26 @@ fn swatches_are_films_over_their_grounds(gpu: &Gpu) {
 }
 
 fn figures_are_made_of_every_material(gpu: &Gpu) {
+    let pictured = |name: &str, material| Pictured { name: name.to_owned(), material, source: None };
     let folder = tempfile::tempdir().expect("is made");
     let coated = painted(gpu, &bumps(gpu), &of(&[layer("oil/viridian", 1.0, 0.0, SPLASH)]), PaintMethod::KubelkaMunk);
-    let refused = figures(gpu, &[("coated".to_owned(), coated)], folder.path(), &Progress::new(gpu.adapter())).expect_err("is painted");
+    let refused = figures(gpu, &[pictured("coated", coated)], Vec::new(), folder.path(), &Progress::new(gpu.adapter())).expect_err("is painted");
     assert!(refused.to_string().starts_with("the material is painted"), "{refused}");
 
     let recipe = Synth { height_field: HeightField::Flat, relief: 0.0, reflectance: SynthReflectance::Matte, seed: 4 };
     let zenith = vec![Direction::from_degrees(0.0, 0.0)];
     let made = Synthetic::new(gpu, "flat", recipe, [64, 64], zenith.clone(), zenith, &Progress::new(gpu.adapter()));
     let flat = made.expect("is made").truth();
-    figures(gpu, &[("flat".to_owned(), flat)], folder.path(), &Progress::new(gpu.adapter())).expect("are made");
+    figures(gpu, &[pictured("flat", flat)], Vec::new(), folder.path(), &Progress::new(gpu.adapter())).expect("are made");
     let html = std::fs::read_to_string(folder.path().join(FIGURES)).expect("is there");
     let named: Vec<_> = html.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
-    // Three paints bare and at two thicknesses, twice; two methods at four thicknesses, twice.
-    assert_eq!(named.len(), 2 * 9 + 2 * 8, "{named:?}");
+    // Three paints bare and at two thicknesses, twice; two methods at four thicknesses, twice. On models: bare and painted from two sides,
+    // twice; three paints of three indices, four times; two models at three thicknesses, twice; four layers, twice.
+    assert_eq!(named.len(), 2 * 9 + 2 * 8 + 2 * 4 + 4 * 9 + 2 * 6 + 2 * 4, "{named:?}");
     for file in named {
         assert!(image::open(folder.path().join(file)).expect("is a picture").width() >= 64, "{file}");
     }
-    for number in ["4.3", "4.4", "4.5", "4.6"] {
+    for number in ["4.3", "4.4", "4.5", "4.6", "4.7", "4.8", "4.9", "4.10", "4.11", "4.12", "4.13", "4.14", "4.15", "4.16"] {
         assert!(html.contains(&format!("(thesis fig. {number}): flat")), "{number}");
     }
 }
