@@ -3,6 +3,7 @@
 mod alpha_blend;
 mod brdf_values;
 mod dark_samples;
+mod environment;
 mod fft;
 mod flatness;
 mod frankot_chellappa;
@@ -39,6 +40,7 @@ mod synth;
 pub use alpha_blend::alpha_blend;
 pub use brdf_values::brdf_values;
 pub use dark_samples::dark_samples;
+pub use environment::{directional_albedo, environment_prefiltered, environment_source, octahedral_direction, octahedral_place};
 pub use fft::fft;
 pub use flatness::flatness;
 pub use frankot_chellappa::frankot_chellappa;
