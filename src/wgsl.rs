@@ -31,6 +31,14 @@ sources! {
     DEVIATION = "kernels/common" "deviation";
     /// Interpolation between measured directions.
     DIRECTION_MESH = "kernels/common" "direction_mesh";
+    /// Look-ups in a prefiltered environment.
+    ENVIRONMENT = "kernels/common" "environment";
+    /// Directional albedos of a paint's surface.
+    ENVIRONMENT_ALBEDO = "kernels" "environment_albedo";
+    /// Means of an environment over the lobes of rough surfaces.
+    ENVIRONMENT_PREFILTER = "kernels" "environment_prefilter";
+    /// An environment at another size.
+    ENVIRONMENT_REDUCE = "kernels" "environment_reduce";
     /// One pass of a Fourier transform.
     FFT = "kernels" "fft";
     /// Kubelka-Munk films.

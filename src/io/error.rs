@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{BtfFileError, MeshFileError, RecipeError, SelectionFault, lights::LightFault};
-use crate::data::{BtfError, Direction, ShapeError, Transfer};
+use crate::data::{BtfError, Direction, EnvironmentError, ShapeError, Transfer};
 
 /// Everything that can go wrong with files. A `file` is a path, or an archive's path and the name inside it.
 #[derive(Debug, thiserror::Error)]
@@ -214,6 +214,23 @@ pub enum IoError {
         found: Transfer,
         /// What the format of the tree's first image has.
         expected: Transfer,
+    },
+    /// An image of codes where radiance is needed.
+    #[error(
+        "{file} is an image of 8- or 16-bit codes, which end at white and leave lamps and sun out; expected linear radiance as floating-point \
+         numbers: take the environment as Radiance HDR (.hdr) or OpenEXR (.exr)"
+    )]
+    NotAnEnvironment {
+        /// The file.
+        file: String,
+    },
+    /// An image whose values are no environment.
+    #[error("{file}: {fault}")]
+    Environment {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        fault: EnvironmentError,
     },
     /// A light file that cannot be used.
     #[error("{file}: {fault}")]

@@ -7,6 +7,7 @@ mod archive;
 mod btf_file;
 pub mod conventions;
 pub mod dataset;
+pub mod environment;
 mod error;
 mod group;
 mod images;

@@ -4,6 +4,7 @@ mod appearance;
 mod boundary;
 mod coat;
 pub mod color;
+mod environment;
 mod fourier;
 mod frame;
 pub mod kubelka_munk;
@@ -25,6 +26,9 @@ mod tone;
 pub use appearance::Appearance;
 pub use boundary::Boundary;
 pub use coat::Coat;
+pub use environment::{
+    ALBEDO_SIZE, ENVIRONMENT_LEVELS, ENVIRONMENT_SIZE, ENVIRONMENT_SOURCE, albedo_node, environment_level, environment_roughness,
+};
 pub use fourier::Fourier;
 pub use frame::{Frame, in_frame, product_in_frame};
 pub use kubelka_munk::Film;

@@ -7,6 +7,7 @@ crate::suites! {
     compare,
     dark_samples,
     direction_mesh,
+    environment,
     fft,
     flatness,
     frankot_chellappa,

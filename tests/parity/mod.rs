@@ -5,6 +5,7 @@ crate::suites! {
     brdf_values,
     dark_samples,
     direction_mesh,
+    environment,
     fft,
     flatness,
     frankot_chellappa,
