@@ -8,6 +8,7 @@ mod btf_file;
 pub mod conventions;
 pub mod dataset;
 mod error;
+pub mod export;
 mod group;
 mod images;
 pub mod lights;

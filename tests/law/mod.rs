@@ -22,6 +22,7 @@ crate::suites! {
     lpca_edges,
     masked,
     mesh,
+    metallic_roughness,
     microfacet,
     mixture,
     normals,
