@@ -103,6 +103,8 @@ sources! {
     MASKED = "kernels/common" "masked";
     /// A mesh that wears a material.
     MESH = "kernels/common" "mesh";
+    /// Light of an environment on the paint of a mesh.
+    MESH_ENVIRONMENT = "kernels/common" "mesh_environment";
     /// Shadow of a mesh on itself.
     MESH_SHADOW = "kernels/common" "mesh_shadow";
     /// Vertices of a mesh.

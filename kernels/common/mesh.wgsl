@@ -2,6 +2,7 @@
 // base plane there (Policarpo, Oliveira, Comba 2005), and its depth is that of the point it meets. The pass that imports this
 // imports one of `unpainted_svbrdf` and `unpainted_lpca` too, for the bare part. Twin: reference::mesh.
 #import shade
+#import mesh_environment
 #import mesh_shadow
 #import mesh_vertices
 
@@ -26,6 +27,8 @@ struct Camera {
     footprint: f32,
     // texels across and down the sheet of the mesh's texture coordinates from 0 to 1
     sheet: vec2<f32>,
+    // factor on the environment, 0 where there is none, and cosine and sine of the angle that it has turned by about y
+    environment: vec4<f32>,
 }
 
 const OUTPUT_RADIANCE: u32 = 0u;
@@ -132,7 +135,17 @@ fn seen_radiance(in: Fragment, frame: BaseFrame, base: vec2<f32>, hit: Hit, leve
             radiance += reached * irradiance * seen;
         }
     }
+    if camera.environment.x > 0.0 {
+        let axes = mat3x3(in_environment(frame.tangent), in_environment(frame.bitangent), in_environment(frame.normal));
+        radiance += camera.environment.x * painted_surroundings_part(sight, view, axes);
+    }
     return radiance;
+}
+
+// A direction of the world in the environment's own frame.
+fn in_environment(direction: vec3<f32>) -> vec3<f32> {
+    let turn = camera.environment.yz;
+    return vec3(turn.x * direction.x - turn.y * direction.z, direction.y, turn.y * direction.x + turn.x * direction.z);
 }
 
 @fragment

@@ -6,7 +6,10 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::{
     data::{Block, Direction, RowOrder, Transfer},
-    io::job::{MAX_PIXELS, MAX_SIDE},
+    io::{
+        export::GltfFormat,
+        job::{MAX_PIXELS, MAX_SIDE},
+    },
     model::{Boundary, SpecularScale, StereoMethod, SurfaceMode, TexelSamples},
 };
 
@@ -62,6 +65,13 @@ pub fn image(text: &str) -> Result<PathBuf, String> {
         Some("png" | "exr") => Ok(path),
         _ => Err("expected a name that ends in .png (sRGB) or .exr (linear, 32-bit float)".to_owned()),
     }
+}
+
+/// The path of a glTF, and its form by its extension.
+pub fn gltf(text: &str) -> Result<(PathBuf, GltfFormat), String> {
+    let path = PathBuf::from(text);
+    let format = GltfFormat::of(&path).ok_or("expected a name that ends in .glb (one binary file) or .gltf (one JSON file)")?;
+    Ok((path, format))
 }
 
 /// A finite number.

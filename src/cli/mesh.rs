@@ -1,13 +1,19 @@
 //! Meshes on the command line: what wears the material, how it is looked at, and the pictures of it.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use clap::{Args, CommandFactory, ValueEnum, error::ErrorKind};
 
 use super::{Cli, CliError, arguments, model::Model};
 use crate::{
-    data::{Camera, Channel, Light, Mesh, MeshView, Sampling, Shape},
-    io::{self, job::Job},
+    data::{Camera, Channel, Light, Mesh, MeshView, Sampling, Shape, Surroundings},
+    io::{
+        self,
+        job::{self, Job},
+    },
     model::{Development, TexelSamples, ToneMap},
 };
 
@@ -33,6 +39,15 @@ pub struct MeshArguments {
     /// A light near by, in units of the mesh; white that faces it at distance 1 reads 1; may be given several times
     #[arg(long, value_name = "X,Y,Z", requires = "mesh", allow_hyphen_values = true, value_parser = arguments::place)]
     lamp: Vec<[f64; 3]>,
+    /// What is around the mesh: studio, sky, or an equirectangular picture in linear light (.hdr, .exr); without --sun and --lamp the only light
+    #[arg(long, value_name = "ENVIRONMENT", requires = "mesh")]
+    environment: Option<PathBuf>,
+    /// Factor on the light of --environment
+    #[arg(long, value_name = "N", requires = "environment", default_value_t = 1.0, value_parser = arguments::positive)]
+    environment_strength: f64,
+    /// How far --environment is turned about the vertical axis, its front to the right, in degrees
+    #[arg(long, value_name = "DEGREES", requires = "environment", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::number)]
+    environment_turn: f64,
     /// The mesh throws no shadows on itself
     #[arg(long, requires = "mesh")]
     no_mesh_shadows: bool,
@@ -89,15 +104,22 @@ enum ToneMapName {
 impl MeshArguments {
     /// The pictures as typed, of `material`, if they are of a mesh.
     pub fn job(&self, material: &Path, size: [u32; 2]) -> Result<Option<Job>, CliError> {
-        let Some((mesh, warnings)) = self.mesh()? else { return Ok(None) };
+        let Some((mesh, mut warnings)) = self.mesh()? else { return Ok(None) };
         let mut lights: Vec<_> = self.sun.iter().map(|bearing| Light::sun(*bearing, [1.0; 3])).collect();
         lights.extend(self.lamp.iter().map(|place| Light::Point { place: (*place).into(), irradiance: [1.0; 3] }));
-        if lights.is_empty() {
+        let surroundings = self.environment.as_ref().map(|environment| job::environment(environment)).transpose()?;
+        let surroundings = surroundings.map(|(environment, told)| {
+            warnings.extend(told);
+            let (strength, turn) = (self.environment_strength, self.environment_turn.to_radians());
+            Surroundings { environment: Arc::new(environment), strength, turn }
+        });
+        if lights.is_empty() && surroundings.is_none() {
             lights = Light::pair();
         }
         let camera = Camera::showing(&mesh, self.camera, self.angle_of_view, size, self.turntable.is_some());
         let view = MeshView {
             tiling: [self.tiling; 2],
+            surroundings,
             shadows: !self.no_mesh_shadows,
             silhouette: self.silhouettes,
             unpainted: (self.unpainted == Model::Lpca).then_some(self.texel_samples),

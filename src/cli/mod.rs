@@ -9,6 +9,7 @@ mod bar;
 mod compare;
 mod demo;
 mod error;
+mod export;
 mod figures;
 mod fit;
 mod import;
@@ -61,6 +62,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 enum Command {
     Compare(compare::Compare),
     Demo(demo::Demo),
+    Export(export::Export),
     Figures(figures::Figures),
     Fit(fit::Fit),
     Import(import::Import),
@@ -90,10 +92,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), CliError
         Command::Render(render) => render.run(&session),
         Command::Synth(synth) => synth.run(&session),
         Command::Paints(paints) if paints.draws() => paints.run(&session),
-        Command::Info(_) | Command::Paints(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
+        Command::Export(_) | Command::Info(_) | Command::Paints(_) | Command::Adapters(_) if session.is_given() => Err(Cli::command()
             .error(clap::error::ErrorKind::ArgumentConflict, "--adapter and --timings are for commands that compute; leave them out here")
             .into()),
         Command::Paints(paints) => paints.run(&session),
+        Command::Export(export) => export.run(),
         Command::Info(info) => info.run(),
         Command::Adapters(adapters) => adapters.run(),
     }

@@ -25,6 +25,12 @@ pub fn check_dataset(path: &Path) -> Result<(), CliError> {
     check_parent(path)
 }
 
+/// Checks that maps can be exported into this folder: nothing is in its place but older maps, and its parent may be written.
+pub fn check_maps(path: &Path) -> Result<(), CliError> {
+    io::export::check_maps(path)?;
+    check_parent(path)
+}
+
 /// Checks that a comparison can be written into this folder: it is empty or holds an older comparison, and may be written, or it can be made.
 pub fn check_comparison(path: &Path) -> Result<(), CliError> {
     pipeline::check_comparison(path)?;

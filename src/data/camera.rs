@@ -227,6 +227,25 @@ impl Light {
         vec![Self::sun([-40.0, 50.0], [1.0; 3]), Self::sun([70.0, 15.0], [0.25; 3])]
     }
 
+    /// The same, turned about the origin.
+    #[must_use]
+    pub fn turned(&self, turn: DQuat) -> Self {
+        match *self {
+            Self::Directional { toward, irradiance } => Self::Directional { toward: turn * toward, irradiance },
+            Self::Point { place, irradiance } => Self::Point { place: turn * place, irradiance },
+        }
+    }
+
+    /// The same with `factor` times the irradiance.
+    #[must_use]
+    pub fn brighter(&self, factor: f64) -> Self {
+        let scaled = |irradiance: [f64; 3]| irradiance.map(|value| value * factor);
+        match *self {
+            Self::Directional { toward, irradiance } => Self::Directional { toward, irradiance: scaled(irradiance) },
+            Self::Point { place, irradiance } => Self::Point { place, irradiance: scaled(irradiance) },
+        }
+    }
+
     /// What the maps have to show of a ball, `side` texels across each: all of it in one, or, from a place in the ball or near it, through the
     /// sides of a cube.
     #[must_use]

@@ -1,8 +1,10 @@
 //! A mesh that wears a material, and how it is looked at.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 
-use super::{Camera, Light, Mesh};
+use super::{Camera, Environment, Light, Mesh};
 use crate::model::{Relief, TexelSamples};
 
 /// What pictures of a mesh are of, and how they are taken; the material comes beside.
@@ -16,6 +18,8 @@ pub struct MeshView {
     pub camera: Camera,
     /// What shines on it.
     pub lights: Vec<Light>,
+    /// What is around it.
+    pub surroundings: Option<Surroundings>,
     /// Whether it throws shadows on itself.
     pub shadows: bool,
     /// What the bare part is made from: its local PCA, interpolated so, or its reflectance.
@@ -26,6 +30,17 @@ pub struct MeshView {
     pub silhouette: bool,
     /// How densely the picture samples the material.
     pub sampling: Sampling,
+}
+
+/// An environment around a mesh.
+#[derive(Debug, Clone)]
+pub struct Surroundings {
+    /// It.
+    pub environment: Arc<Environment>,
+    /// Factor on its light.
+    pub strength: f64,
+    /// By how much it has turned about the vertical axis, radians, its front to the right.
+    pub turn: f64,
 }
 
 /// How densely a picture samples the material.
@@ -59,6 +74,7 @@ impl MeshView {
             tiling: [1.0; 2],
             camera,
             lights,
+            surroundings: None,
             shadows: true,
             unpainted: None,
             relief: Relief::default(),
@@ -82,6 +98,7 @@ impl MeshView {
         Self {
             camera: Camera { eye: about(eye), target: about(target), up: turn * up, ..self.camera },
             lights: self.lights.iter().map(light).collect(),
+            surroundings: self.surroundings.clone().map(|around| Surroundings { turn: around.turn - angle, ..around }),
             ..self.clone()
         }
     }

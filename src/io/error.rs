@@ -366,6 +366,14 @@ pub enum IoError {
         /// Its row.
         row: usize,
     },
+    /// A `.glb` that would not know its own length.
+    #[error("{path} would have {bytes} bytes, more than a .glb can; simplify the mesh, or name it .gltf", path = path.display())]
+    TooLargeGlb {
+        /// The file.
+        path: PathBuf,
+        /// Its bytes.
+        bytes: usize,
+    },
     /// A picture that cannot be encoded or decoded.
     #[error("picture {path}: {message}; check that the file is whole and what its extension says, or use the other of .png and .exr", path = path.display())]
     Picture {

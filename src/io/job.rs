@@ -16,7 +16,8 @@
 //! | `turntable` | pictures of a whole turn, 1 to 100000; default none |
 //! | `mesh` | the mesh, a table; default a sphere |
 //! | `camera` | where it is seen from, a table; default from the front, a little above |
-//! | `light` | what shines on it, up to 32 tables, each headed by `[[light]]`; default one from the upper left and a weak one from the right |
+//! | `light` | what shines on it, up to 32 tables, each headed by `[[light]]`; default one from the upper left and a weak one from the right, or none if there is an environment |
+//! | `environment` | what is around it, a table; default nothing |
 //!
 //! | key of `mesh` | what it is |
 //! |---|---|
@@ -38,9 +39,19 @@
 //! | `place` | of a light near by, in units of the mesh |
 //! | `irradiance` | on a surface that faces it, one number or red, green and blue: under 1 white reads 1; of a light near by at distance 1; default 1 |
 //!
+//! | key of `environment` | what it is |
+//! |---|---|
+//! | `name` | `"studio"` or `"sky"` |
+//! | `file` | an equirectangular picture in linear light instead, Radiance HDR or OpenEXR |
+//! | `strength` | factor on its light, 0.000001 to 1000000; default 1 |
+//! | `turn` | about the vertical axis, its front to the right, in degrees; default 0 |
+//!
 //! World and meshes: x right, y up, z towards the viewer.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use glam::DVec3;
 
@@ -49,7 +60,7 @@ use super::{
     recipe::{Document, Outcome, Placed, RecipeFault, Table, Value, read},
 };
 use crate::{
-    data::{Camera, Channel, Light, Mesh, MeshView, Projection, Sampling, Shape},
+    data::{Camera, Channel, Environment, Light, Mesh, MeshView, Projection, Sampling, Shape, Surroundings},
     model::{Development, TexelSamples, ToneMap},
 };
 
@@ -103,6 +114,7 @@ pub fn load(path: &Path) -> Result<Job, IoError> {
         "mesh",
         "camera",
         "light",
+        "environment",
     ];
     let root = Table::new("a job", 0..0, &entries).only(&keys);
     root.and_then(|root| job(&root, folder)).map_err(|placed| document.error(placed).into())
@@ -112,8 +124,9 @@ fn job(root: &Table<'_>, folder: &Path) -> Outcome<Job> {
     let path = |value: Value<'_>| Ok::<_, Placed>(folder.join(value.path()?));
     let size = root.get("size").map_or(Ok([768, 768]), size)?;
     let table = root.get("mesh").map(|value| value.table("the mesh")).transpose()?;
-    let (mesh, warnings) = table.as_ref().map_or_else(|| Ok((Shape::Sphere.mesh(), Vec::new())), |table| named_mesh(table, folder))?;
+    let (mesh, mut warnings) = table.as_ref().map_or_else(|| Ok((Shape::Sphere.mesh(), Vec::new())), |table| named_mesh(table, folder))?;
     let lights = match root.get("light") {
+        None if root.get("environment").is_some() => Vec::new(),
         None => Light::pair(),
         Some(value) => {
             let lights = value.elements("an array of tables, each headed by [[light]]")?;
@@ -129,7 +142,13 @@ fn job(root: &Table<'_>, folder: &Path) -> Outcome<Job> {
         Some(value) => camera(&value.table("the camera")?, &mesh, size, turning)?,
     };
     let texel_samples = root.get("texel_samples").map(texel_samples).transpose()?;
+    let (surroundings, told) = match root.get("environment") {
+        None => (None, Vec::new()),
+        Some(value) => surroundings(&value.table("the environment")?, folder)?,
+    };
+    warnings.extend(told);
     let view = MeshView {
+        surroundings,
         tiling: table.as_ref().and_then(|table| table.get("tiling")).map_or(Ok([1.0; 2]), tiling)?,
         shadows: table.as_ref().and_then(|table| table.get("shadows")).map_or(Ok(true), Value::flag)?,
         silhouette: table.as_ref().map_or(Ok(false), |table| table.flag("silhouettes"))?,
@@ -165,6 +184,32 @@ fn named_mesh(table: &Table<'_>, folder: &Path) -> Outcome<(Mesh, Vec<String>)> 
         }
         _ => Ok((choice(table, "shape", &Shape::ALL.map(|shape| (shape.name(), shape)))?.mesh(), Vec::new())),
     }
+}
+
+/// An environment by its name, `studio` or `sky`, or from a file, and what was mended of it.
+///
+/// # Errors
+/// [`IoError`] if the file is no environment.
+pub fn environment(name: &Path) -> Result<(Environment, Vec<String>), IoError> {
+    match name.to_str() {
+        Some("studio") => Ok((Environment::studio(), Vec::new())),
+        Some("sky") => Ok((Environment::sky(), Vec::new())),
+        _ => super::environment::load(name).map(|loaded| (loaded.environment, loaded.warnings)),
+    }
+}
+
+fn surroundings(table: &Table<'_>, folder: &Path) -> Outcome<(Option<Surroundings>, Vec<String>)> {
+    table.check(&["name", "file", "strength", "turn"])?;
+    let (environment, warnings) = match (table.get("name"), table.get("file")) {
+        (Some(_), Some(file)) => {
+            return Err(file.fault(RecipeFault::Both { of: table.what().to_owned(), first: "name", second: "file" }));
+        }
+        (None, Some(file)) => environment(&folder.join(file.path()?)).map_err(|error| file.fault(RecipeFault::File(Box::new(error))))?,
+        _ => (choice(table, "name", &[("studio", Environment::studio as fn() -> _), ("sky", Environment::sky)])?(), Vec::new()),
+    };
+    let strength = within(table, "strength", table.number("strength", 1.0)?, [1e-6, 1e6])?;
+    let turn = within(table, "turn", table.number("turn", 0.0)?, [-36_000.0, 36_000.0])?.to_radians();
+    Ok((Some(Surroundings { environment: Arc::new(environment), strength, turn }), warnings))
 }
 
 fn camera(table: &Table<'_>, mesh: &Mesh, size: [u32; 2], turning: bool) -> Outcome<Camera> {

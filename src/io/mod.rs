@@ -9,6 +9,7 @@ pub mod conventions;
 pub mod dataset;
 pub mod environment;
 mod error;
+pub mod export;
 mod group;
 mod images;
 pub mod job;

@@ -82,11 +82,14 @@ fn png_bytes(path: &Path, picture: &Map<[f32; 4]>) -> Result<Vec<u8>, IoError> {
         return Err(IoError::NotANumber { path: path.to_owned(), column, row });
     }
     let pixels: Vec<[u8; 4]> = picture.values().iter().map(|&pixel| codes(pixel)).collect();
+    encoded_png(path, pixels.as_flattened(), [picture.width(), picture.height()], ExtendedColorType::Rgba8)
+}
+
+/// The bytes of a PNG of these codes, for the file `path`.
+pub(super) fn encoded_png(path: &Path, codes: &[u8], size: [usize; 2], color: ExtendedColorType) -> Result<Vec<u8>, IoError> {
     let mut bytes = Cursor::new(Vec::new());
-    let size = [picture.width(), picture.height()].map(u32::try_from);
-    let [Ok(width), Ok(height)] = size else { return Err(failed(path, &"more than 2^32 rows or columns")) };
-    image::write_buffer_with_format(&mut bytes, pixels.as_flattened(), width, height, ExtendedColorType::Rgba8, ImageFormat::Png)
-        .map_err(|error| failed(path, &error))?;
+    let [Ok(width), Ok(height)] = size.map(u32::try_from) else { return Err(failed(path, &"more than 2^32 rows or columns")) };
+    image::write_buffer_with_format(&mut bytes, codes, width, height, color, ImageFormat::Png).map_err(|error| failed(path, &error))?;
     Ok(bytes.into_inner())
 }
 

@@ -1,5 +1,7 @@
 //! The Lafortune lobe.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 /// Most lobes of a texel.
 pub const MAX_LOBES: usize = 3;
 
@@ -17,4 +19,30 @@ pub const MIN_LOBE_ENERGY: f64 = 1e-8;
 pub fn lafortune(lobe: [f64; 4], product: [f64; 3]) -> f64 {
     let base: f64 = lobe.iter().zip(product).map(|(c, p)| c * p).sum();
     if base > 0.0 { base.powf(lobe[3]) } else { 0.0 }
+}
+
+/// Share of light from everywhere that a lobe with ρ_s = 1 sends back: ∫∫ (C·(ω_i ω_o))^n cos θ_i cos θ_o dω_i dω_o / π², to 5 %.
+///
+/// For one ω_i the lobe is (c·ω_o)^n, c = (C_x x, C_y y, C_z z). About its axis, whose cosine to the normal is μ, its share is
+/// 2μ/(n + 2) without the horizon, since ∫ (ĉ·ω)^n ω dω = 2π/(n + 2) ĉ; with it (μ + √(μ² + q²(1 − μ²)))/(n + 2), which is exact in
+/// n = 0 and in the difference of μ and −μ. q²/(n + 2)² is the square of the share at μ = 0, q² = (Γ((n + 1)/2)/Γ(n/2 + 1))²/π, here
+/// 2/(πn + 2). The mean over ω_i is taken at 32 directions of a quadrant.
+#[must_use]
+pub fn lafortune_albedo([cx, cy, cz, n]: [f64; 4]) -> f64 {
+    const RINGS: u32 = 8;
+    const SECTORS: u32 = 4;
+    let mut sum = 0.0;
+    for ring in 0..RINGS {
+        let sin2 = (f64::from(ring) + 0.5) / f64::from(RINGS);
+        for sector in 0..SECTORS {
+            let cos2 = (FRAC_PI_2 * (f64::from(sector) + 0.5) / f64::from(SECTORS)).cos().powi(2);
+            let length2 = sin2 * (cx * cx * cos2 + cy * cy * (1.0 - cos2)) + (1.0 - sin2) * cz * cz;
+            if length2 > 0.0 {
+                let cosine = cz * ((1.0 - sin2) / length2).sqrt();
+                let horizon = (cosine * cosine + (1.0 - cosine * cosine) * 2.0 / (PI * n + 2.0)).sqrt();
+                sum += length2.powf(0.5 * n) * (cosine + horizon) / (n + 2.0);
+            }
+        }
+    }
+    sum / f64::from(RINGS * SECTORS)
 }

@@ -10,6 +10,7 @@ mod frame;
 pub mod kubelka_munk;
 mod lafortune;
 mod lpca;
+pub mod metallic_roughness;
 pub mod microfacet;
 mod paint;
 pub mod pattern;
@@ -32,8 +33,9 @@ pub use environment::{
 pub use fourier::Fourier;
 pub use frame::{Frame, in_frame, product_in_frame};
 pub use kubelka_munk::Film;
-pub use lafortune::{MAX_LOBES, MIN_LOBE_ENERGY, MIN_LOBE_SAMPLES, lafortune};
+pub use lafortune::{MAX_LOBES, MIN_LOBE_ENERGY, MIN_LOBE_SAMPLES, lafortune, lafortune_albedo};
 pub use lpca::{LpcaMethod, LpcaSettings, LpcaTarget, MAX_CLUSTERS, MAX_COMPONENTS, MAX_RANK, Weighting};
+pub use metallic_roughness::MetallicRoughness;
 pub use paint::{Layer, Paint, PaintError, PaintMethod};
 pub use pattern::{Capsule, Pattern, PatternError};
 pub use pigments::Pigment;

@@ -1,7 +1,7 @@
 //! Errors of a pipeline.
 
 use crate::{
-    data::ShapeError,
+    data::{EnvironmentError, ShapeError},
     gpu::GpuError,
     io::IoError,
     model::{PaintError, PaintMethod, SettingsError, SynthError, pigments::PigmentError},
@@ -27,6 +27,9 @@ pub enum PipelineError {
     /// A synthetic material that cannot be rendered.
     #[error(transparent)]
     Synth(#[from] SynthError),
+    /// An environment that is none.
+    #[error(transparent)]
+    Environment(#[from] EnvironmentError),
     /// No ffmpeg.
     #[error("films are made by ffmpeg, which cannot be run; install it, or name numbered pictures such as turn_###.png")]
     NoFfmpeg,

@@ -3,14 +3,20 @@
 //! A picture may be larger than a texture: it is drawn tile by tile. Several rays a pixel are as many pictures, each moved by a part of a
 //! pixel, and their mean.
 
+use glam::DQuat;
+
 use super::{PipelineError, Progress, Studio, tiles::run};
 use crate::{
-    data::{Camera, Channel, Map, Material, MeshView, Sampling, Window},
+    data::{self, Camera, Channel, Light, Map, Material, MeshView, Sampling, Surroundings, Window},
     gpu::{Gpu, Target},
-    model::{Relief, TexelSamples},
-    render::{Lighting, Lights, MeshBuffers, MeshPass, Output, ShadowPass, Worn},
-    stage::{Average, CompressedBtf, Minify, Surface},
+    model::{ENVIRONMENT_SIZE, ENVIRONMENT_SOURCE, Relief, TexelSamples},
+    render::{Lighting, Lights, MeshBuffers, MeshPass, Output, ShadowPass, Shown, SurroundingsBuffers},
+    stage::{Average, CompressedBtf, Environment, Minify, Surface},
 };
+
+/// Lights that stand for an environment on what is bare, each by a look at the original: with eight, shadows are soft and colours within a few
+/// per cent.
+const AROUND: usize = 8;
 
 /// Columns and rows of a tile at most: 16 MiB of pixels.
 const TILE: u32 = 1024;
@@ -22,15 +28,19 @@ pub struct Dressed {
     surface: Surface,
     compressed: Option<(CompressedBtf, TexelSamples)>,
     lighting: Lighting,
+    surroundings: SurroundingsBuffers,
+    /// What stands for them on the bare part, before they are turned.
+    around: Vec<Light>,
     relief: Relief,
     silhouette: bool,
     sampling: Sampling,
 }
 
 impl Dressed {
-    fn worn(&self) -> Worn<'_> {
+    fn shown(&self) -> Shown<'_> {
+        let Self { mesh, surface, lighting, surroundings, relief, silhouette, .. } = self;
         let compressed = self.compressed.as_ref().map(|(btf, texel_samples)| (btf, *texel_samples));
-        Worn { surface: &self.surface, compressed, relief: self.relief, silhouette: self.silhouette }
+        Shown { mesh, surface, compressed, relief: *relief, silhouette: *silhouette, lighting, surroundings }
     }
 }
 
@@ -42,6 +52,7 @@ pub struct Renderer<'g> {
     shadow: ShadowPass,
     minify: Minify,
     average: Average,
+    environment: Environment,
 }
 
 impl<'g> Renderer<'g> {
@@ -51,7 +62,7 @@ impl<'g> Renderer<'g> {
     /// [`PipelineError::Gpu`] if the driver refuses one.
     pub fn new(gpu: &'g Gpu) -> Result<Self, PipelineError> {
         let (pass, shadow, minify, average) = (MeshPass::new(gpu)?, ShadowPass::new(gpu)?, Minify::new(gpu)?, Average::new(gpu)?);
-        Ok(Self { gpu, pass, shadow, minify, average })
+        Ok(Self { gpu, pass, shadow, minify, average, environment: Environment::new(gpu)? })
     }
 
     /// Uploads what `view` shows of `material`, and draws the shadow maps.
@@ -73,12 +84,17 @@ impl<'g> Renderer<'g> {
     /// # Errors
     /// [`PipelineError::Gpu`] if they do not fit the adapter.
     pub fn relight(&self, dressed: &mut Dressed, view: &MeshView, progress: &Progress) -> Result<(), PipelineError> {
-        dressed.lighting = self.light(&dressed.mesh, view, progress)?;
+        dressed.lighting = self.light(&dressed.mesh, view, &dressed.around, progress)?;
+        if let Some(surroundings) = &view.surroundings {
+            dressed.surroundings.turn_to(surroundings.turn);
+        }
         Ok(())
     }
 
-    fn light(&self, mesh: &MeshBuffers, view: &MeshView, progress: &Progress) -> Result<Lighting, PipelineError> {
-        let lights = Lights { lights: &view.lights, around: &[], shadows: view.shadows };
+    fn light(&self, mesh: &MeshBuffers, view: &MeshView, around: &[Light], progress: &Progress) -> Result<Lighting, PipelineError> {
+        let turn = DQuat::from_rotation_y(view.surroundings.as_ref().map_or(0.0, |surroundings| surroundings.turn));
+        let around: Vec<_> = around.iter().map(|light| light.turned(turn)).collect();
+        let lights = Lights { lights: &view.lights, around: &around, shadows: view.shadows };
         run(self.gpu, progress, "shadow", [0, 1], |recorder| Ok::<_, PipelineError>(self.shadow.record(recorder, mesh, lights)?))
     }
 
@@ -90,9 +106,35 @@ impl<'g> Renderer<'g> {
         &self, view: &MeshView, surface: Surface, compressed: Option<(CompressedBtf, TexelSamples)>, progress: &Progress,
     ) -> Result<Dressed, PipelineError> {
         let mesh = MeshBuffers::upload(self.gpu, &view.mesh, view.tiling)?;
-        let lighting = self.light(&mesh, view, progress)?;
+        let (surroundings, around) = self.surround(view.surroundings.as_ref(), progress)?;
+        let lighting = self.light(&mesh, view, &around, progress)?;
         let MeshView { relief, silhouette, sampling, .. } = *view;
-        Ok(Dressed { mesh, surface, compressed, lighting, relief, silhouette, sampling })
+        Ok(Dressed { mesh, surface, compressed, lighting, surroundings, around, relief, silhouette, sampling })
+    }
+
+    /// An environment, prefiltered, and the lights that stand for it.
+    fn surround(&self, around: Option<&Surroundings>, progress: &Progress) -> Result<(SurroundingsBuffers, Vec<Light>), PipelineError> {
+        let Some(Surroundings { environment, strength, turn }) = around else {
+            let mut recorder = self.gpu.recorder();
+            let none = SurroundingsBuffers::none(&mut recorder)?;
+            self.gpu.submit(recorder).wait(self.gpu)?;
+            return Ok((none, Vec::new()));
+        };
+        let [columns, rows] = ENVIRONMENT_SOURCE;
+        let texels = columns * rows;
+        let (source, levels, albedo) = run(self.gpu, progress, "environment", [texels, 1], |recorder| {
+            let source = self.environment.record_source(recorder, environment)?;
+            let levels = self.environment.record(recorder, environment, ENVIRONMENT_SIZE)?;
+            Ok::<_, PipelineError>((source, levels, self.environment.record_albedo(recorder)?))
+        })?;
+        let radiance = source.read(self.gpu)?.into_iter().map(|[r, g, b, _]| [r, g, b]).collect();
+        let source = data::Environment::new(Map::new(columns, rows, radiance)?)?;
+        let lights = source.lights(AROUND).into_iter().map(|light| light.brighter(*strength)).collect();
+        let albedo = albedo.read(self.gpu)?;
+        let mut recorder = self.gpu.recorder();
+        let buffers = SurroundingsBuffers::record(&mut recorder, &levels, &albedo, *strength, *turn)?;
+        self.gpu.submit(recorder).wait(self.gpu)?;
+        Ok((buffers, lights))
     }
 
     /// What `channels` tell of `dressed`, seen by `camera`, by the names of their layers in a file, `[row][column]` each, 0 where nothing is.
@@ -150,17 +192,7 @@ impl<'g> Renderer<'g> {
                 run(self.gpu, progress, "mesh", [pixels, 1], |recorder| {
                     let [right, down] = within_pixel(sample, sampling.pictures);
                     let window = Window { corner: [f64::from(left) + right, f64::from(top) + down], size: size.map(f64::from) };
-                    self.pass.draw(
-                        recorder,
-                        &dressed.mesh,
-                        dressed.worn(),
-                        camera,
-                        window,
-                        &dressed.lighting,
-                        output,
-                        sampling,
-                        &target,
-                    )?;
+                    self.pass.draw(recorder, dressed.shown(), camera, window, output, sampling, &target)?;
                     let drawn = target.record_copy(recorder)?;
                     self.average.record(recorder, &drawn, &mean, [size[0] as usize, target.row_pixels()], [sample, sampling.pictures])
                 })?;

@@ -6,7 +6,7 @@
 
 use glam::{DMat4, DVec3};
 
-use super::Lighting;
+use super::{Lighting, SurroundingsBuffers};
 use crate::{
     data::{Camera, Mesh, Sampling, Window},
     gpu::{Bind, Buffer, Gpu, GpuError, Raster, Recorder, Resource, Target, bind},
@@ -30,6 +30,7 @@ gpu_struct! {
         rays: u32,
         footprint: f32,
         sheet: [f32; 2],
+        environment: [f32; 4],
     }
 }
 gpu_struct! {
@@ -47,9 +48,11 @@ pub enum Output {
     Paint,
 }
 
-/// What a mesh wears.
+/// What is shown: a mesh, what it wears, and what shines on it.
 #[derive(Debug, Clone, Copy)]
-pub struct Worn<'a> {
+pub struct Shown<'a> {
+    /// The mesh.
+    pub mesh: &'a MeshBuffers,
     /// The material's maps.
     pub surface: &'a Surface,
     /// What its bare part is made from, if it is the local PCA.
@@ -58,6 +61,10 @@ pub struct Worn<'a> {
     pub relief: Relief,
     /// Whether rays that leave the sheet of texture coordinates 0 to 1 see through it.
     pub silhouette: bool,
+    /// Lights on this mesh.
+    pub lighting: &'a Lighting,
+    /// What is around it.
+    pub surroundings: &'a SurroundingsBuffers,
 }
 
 /// A mesh in adapter memory.
@@ -117,6 +124,7 @@ impl MeshPass {
             let mut resources = Surface::painted_resources();
             resources.extend(bare);
             resources.extend(Lighting::resources());
+            resources.extend(SurroundingsBuffers::resources());
             resources.extend([
                 Resource::uniform::<CameraParams>("camera"),
                 Resource::read::<Vertex>("vertices"),
@@ -130,24 +138,25 @@ impl MeshPass {
         })
     }
 
-    /// Draws `mesh` wearing `worn` into `target`, which shows the part `window` of the camera's picture; `lighting` is that of this mesh.
+    /// Draws `shown` into `target`, which shows the part `window` of the camera's picture.
     ///
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
     pub fn draw(
-        &self, recorder: &mut Recorder<'_>, mesh: &MeshBuffers, worn: Worn<'_>, camera: &Camera, window: Window, lighting: &Lighting,
-        output: Output, sampling: Sampling, target: &Target,
+        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, output: Output, sampling: Sampling,
+        target: &Target,
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
-        let scene: Buffer<Scene> = worn.surface.unlit_scene(gpu, worn.relief)?;
+        let Shown { mesh, lighting, surroundings, .. } = shown;
+        let scene: Buffer<Scene> = shown.surface.unlit_scene(gpu, shown.relief)?;
         #[expect(clippy::cast_precision_loss, reason = "columns and rows")]
-        let texels = worn.surface.field.size.map(|side| side as f32);
+        let texels = shown.surface.field.size.map(|side| side as f32);
         let [clip_x, clip_y, clip_z, clip_w] = clip_rows(camera.clip_from_world(window));
         let params = CameraParams {
             lights: lighting.count(),
             output: output as u32,
-            silhouette: worn.silhouette.into(),
-            levels: worn.surface.levels,
+            silhouette: shown.silhouette.into(),
+            levels: shown.surface.levels,
             rays: sampling.rays.max(1),
             footprint: single(1.0 / f64::from(sampling.pictures.max(1)).sqrt()),
             eye: camera.homogeneous_eye().as_vec4().to_array(),
@@ -155,17 +164,19 @@ impl MeshPass {
             clip_y,
             clip_z,
             clip_w,
+            environment: surroundings.params(),
             sheet: [0, 1].map(|axis| mesh.tiling[axis] * texels[axis]),
             ..Default::default()
         };
         let camera = gpu.uniform("camera", &params)?;
-        let mut binds = worn.surface.painted_binds(&scene);
+        let mut binds = shown.surface.painted_binds(&scene);
         binds.extend([bind("camera", &camera), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)]);
         binds.extend(lighting.binds());
+        binds.extend(surroundings.binds());
         let vertices = count(mesh.corners.len());
-        match worn.compressed {
+        match shown.compressed {
             None => {
-                binds.extend(worn.surface.bare_binds());
+                binds.extend(shown.surface.bare_binds());
                 recorder.draw(&self.svbrdf, &binds, vertices, target);
             }
             Some((btf, texel_samples)) => {

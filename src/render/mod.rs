@@ -3,7 +3,9 @@
 mod lighting;
 mod mesh;
 mod plane;
+mod surroundings;
 
 pub use lighting::{Lighting, Lights, ShadowPass};
-pub use mesh::{MeshBuffers, MeshPass, Output, Worn};
+pub use mesh::{MeshBuffers, MeshPass, Output, Shown};
 pub use plane::Plane;
+pub use surroundings::SurroundingsBuffers;

@@ -4,8 +4,8 @@ use super::overpaint;
 
 crate::suite! { plain: every_subcommand_has_help_with_examples, help_lists_every_subcommand, the_version_is_the_package_s; }
 
-const SUBCOMMANDS: [&str; 12] =
-    ["compare", "demo", "figures", "fit", "import", "info", "paint", "paints", "reconstruct", "render", "synth", "adapters"];
+const SUBCOMMANDS: [&str; 13] =
+    ["compare", "demo", "export", "figures", "fit", "import", "info", "paint", "paints", "reconstruct", "render", "synth", "adapters"];
 
 fn every_subcommand_has_help_with_examples() {
     for subcommand in SUBCOMMANDS {

@@ -1,7 +1,7 @@
 //! Readers and writers.
 
 crate::suites! {
-    archive, btf_file, corpus, dataset, deep, encoding, environment, job, lights, material, material_lpca, material_paint, measured, mesh, mesh_gltf, openexr, picture, radiance_hdr, recipe, recipe_errors, recipe_images, selection, tree, tree_writer,
+    archive, btf_file, corpus, dataset, deep, encoding, environment, export_gltf, export_maps, job, lights, material, material_lpca, material_paint, measured, mesh, mesh_gltf, openexr, picture, radiance_hdr, recipe, recipe_errors, recipe_images, selection, tree, tree_writer,
 }
 
 use std::{io::Cursor, path::Path};

@@ -24,6 +24,7 @@ crate::suites! {
     masked,
     mesh,
     mesh_pass,
+    metallic_roughness,
     minify,
     microfacet,
     mixture,

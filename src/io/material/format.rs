@@ -82,12 +82,12 @@ impl Dimension {
 use Dimension::{Cluster, Column, Component, Of, Row, Sample, Term};
 
 /// One array of the group.
-pub(super) struct Layout {
-    pub(super) name: &'static str,
+pub(in crate::io) struct Layout {
+    pub(in crate::io) name: &'static str,
     /// Outermost first.
     dimensions: &'static [Dimension],
-    unit: &'static str,
-    about: &'static str,
+    pub(in crate::io) unit: &'static str,
+    pub(in crate::io) about: &'static str,
 }
 
 const SCALAR: &[Dimension] = &[Row, Column];
@@ -112,15 +112,15 @@ const fn lobe(name: &'static str) -> Layout {
     )
 }
 
-pub(super) const HEIGHT: Layout =
+pub(in crate::io) const HEIGHT: Layout =
     layout("height", SCALAR, "texel widths", "height over the plane that the pictures are rectified to, positive outwards");
-pub(super) const NORMAL: Layout = layout("normal", XYZ, "1", "unit normals of the height field");
+pub(in crate::io) const NORMAL: Layout = layout("normal", XYZ, "1", "unit normals of the height field");
 pub(super) const NORMAL_MEASURED: Layout = layout("normal_measured", XYZ, "1", "unit normals of photometric stereo, before integration");
 pub(super) const ALBEDO: Layout = layout("albedo", SCALAR, "reflectance", "albedo of photometric stereo");
-pub(super) const DIFFUSE: Layout = layout("diffuse", RGB, "reflectance", "rho_d");
+pub(in crate::io) const DIFFUSE: Layout = layout("diffuse", RGB, "reflectance", "rho_d");
 /// Of the first lobe, the second and the third.
-pub(super) const SPECULAR: [Layout; MAX_LOBES] = [specular("specular"), specular("specular_2"), specular("specular_3")];
-pub(super) const LOBE: [Layout; MAX_LOBES] = [lobe("lobe"), lobe("lobe_2"), lobe("lobe_3")];
+pub(in crate::io) const SPECULAR: [Layout; MAX_LOBES] = [specular("specular"), specular("specular_2"), specular("specular_3")];
+pub(in crate::io) const LOBE: [Layout; MAX_LOBES] = [lobe("lobe"), lobe("lobe_2"), lobe("lobe_3")];
 pub(super) const OBJECTIVE_WITHOUT_LOBE: Layout =
     layout("fit_objective_without_lobe", SCALAR, "reflectance^2", "mean squared residual without any lobe");
 pub(super) const OBJECTIVE: Layout = layout("fit_objective", SCALAR, "reflectance^2", "mean squared residual at the end of the fit");
@@ -161,13 +161,13 @@ pub(super) const LPCA_PAIRS: Layout = layout(
     "local PCA: view and light of the sample, in the provenance's lists of views and lights",
 );
 
-pub(super) const PAINT_HEIGHT: Layout =
+pub(in crate::io) const PAINT_HEIGHT: Layout =
     layout("paint_height", SCALAR, "texel widths", "height of the painted surface, over the same plane as the material's own");
-pub(super) const PAINT_NORMAL: Layout = layout("paint_normal", XYZ, "1", "unit normals of the painted surface");
-pub(super) const PAINT_REFLECTANCE: Layout =
+pub(in crate::io) const PAINT_NORMAL: Layout = layout("paint_normal", XYZ, "1", "unit normals of the painted surface");
+pub(in crate::io) const PAINT_REFLECTANCE: Layout =
     layout("paint_reflectance", RGB, "reflectance", "diffuse reflectance of the paint on the material's (Kubelka, Munk 1931)");
-pub(super) const PAINT_COVERAGE: Layout = layout("paint_coverage", SCALAR, "1", "how much of the texel is painted, 0 to 1");
-pub(super) const PAINT_COAT: Layout = layout(
+pub(in crate::io) const PAINT_COVERAGE: Layout = layout("paint_coverage", SCALAR, "1", "how much of the texel is painted, 0 to 1");
+pub(in crate::io) const PAINT_COAT: Layout = layout(
     "paint_coat",
     &[Row, Column, Of("parameter", &["F0", "alpha"])],
     "1",

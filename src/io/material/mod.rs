@@ -6,7 +6,7 @@
 //! replace a group that holds anything else.
 
 mod array;
-mod format;
+pub(super) mod format;
 mod lpca;
 mod paint;
 
