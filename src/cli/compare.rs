@@ -78,13 +78,13 @@ impl Compare {
     }
 }
 
-/// The figures over all pairs, and the bias at each θ of the views.
+/// The figures over all pairs, and bias and PSNR at each θ of the views.
 fn summary(comparison: &Comparison) -> String {
     let or = |value: Option<f64>, text: &dyn Fn(f64) -> String| value.map_or_else(|| "–".to_owned(), text);
     let percent = |value: Option<f64>| or(value, &|value| format!("{:+.2} %", 100.0 * value));
     let overall = &comparison.overall;
     let mut text = format!(
-        "relative RMS {}  PSNR {}  bias {}  over {} pairs\nbias by view elevation",
+        "relative RMS {}  PSNR {}  bias {}  over {} pairs\nbias and PSNR by view elevation",
         or(overall.relative_rms, &|value| format!("{value:.4}")),
         or(overall.psnr_db, &|value| format!("{value:.2} dB")),
         percent(overall.bias),
@@ -92,7 +92,8 @@ fn summary(comparison: &Comparison) -> String {
     );
     for AtElevation { theta_degrees, quality } in &comparison.by_view_elevation {
         // Writing into a string cannot fail.
-        write!(text, "\n  θ {theta_degrees:>4}  {:>9}", percent(quality.bias)).ok();
+        let psnr = or(quality.psnr_db, &|value| format!("{value:.2} dB"));
+        write!(text, "\n  θ {theta_degrees:>4}  {:>9}  {psnr:>9}", percent(quality.bias)).ok();
     }
     text
 }

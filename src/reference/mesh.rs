@@ -1,9 +1,12 @@
 //! Twin of the mesh passes: a ray a pixel, cut with every triangle; of the points met in the relief the nearest is seen.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
-use super::{CompressedBtf, Surface};
-use crate::data::{Direction, Light, Map, Mesh, MeshView};
+use super::{CompressedBtf, Surface, environment_prefiltered, environment_source};
+use crate::{
+    data::{Direction, Light, Map, Mesh, MeshView},
+    model::ENVIRONMENT_SOURCE,
+};
 
 /// A view counts as this low above the base plane at least.
 const LOWEST_VIEW: f64 = 0.02;
@@ -29,6 +32,10 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
         let [u, v] = mesh.texture_coordinates()[vertex].map(f64::from);
         [u * tiling[0] * size[0] - 0.5, -v * tiling[1] * size[1] - 0.5]
     };
+    let source = view
+        .surroundings
+        .as_ref()
+        .map_or_else(|| Map::from_fn(1, 1, |_, _| [0.0; 3]), |around| environment_source(&around.environment, ENVIRONMENT_SOURCE));
     Map::from_fn(camera.size[0] as usize, camera.size[1] as usize, |column, row| {
         let [origin, direction] = camera.ray([column as f64 + 0.5, row as f64 + 0.5]);
         let mut nearest = (f64::INFINITY, [0.0; 4]);
@@ -84,6 +91,15 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
                 }
                 let radiance = radiance(view, worn, base, toward, in_base(way.normalize()));
                 (0..3).for_each(|channel| value[channel] += irradiance[channel] * radiance[channel]);
+            }
+            if let Some(surroundings) = &view.surroundings {
+                let (place, _) = field.first_hit(base, toward);
+                let seen = worn.surface.surrounded(&field, place, toward, &|direction: DVec3, roughness| {
+                    let [x, y, z] = direction.to_array();
+                    let of_world = x * tangent + y * bitangent + z * normal;
+                    environment_prefiltered(&source, roughness, DQuat::from_rotation_y(-surroundings.turn) * of_world)
+                });
+                (0..3).for_each(|channel| value[channel] += surroundings.strength * seen[channel]);
             }
             nearest = (met, value);
         }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::relief::HeightField;
+use super::{directional_albedo, relief::HeightField};
 use crate::{
     data::Map,
     model::{
@@ -98,6 +98,29 @@ impl Surface {
             bare -= weight * coverage;
         }
         (radiance, bare)
+    }
+
+    /// What paint around a place sends to `view` of an environment, times its coverage; `environment` is the mean over a lobe of a roughness
+    /// around a direction in the base plane's frame. What is mirrored of below that plane counts as dark.
+    pub(super) fn surrounded(
+        &self, field: &HeightField<'_>, place: [f64; 2], view: DVec3, environment: &dyn Fn(DVec3, f64) -> [f64; 3],
+    ) -> [f64; 3] {
+        let mut radiance = [0.0; 3];
+        for (texel, weight) in field.corners(place) {
+            let normal = DVec3::from_array(self.normals[texel]);
+            let [f0, alpha] = self.coat[texel];
+            let cosine = normal.dot(view);
+            let leaving = 1.0 - schlick(f0, cosine.max(view.z));
+            let mirror = 2.0 * cosine * normal - view;
+            let [scale, bias] = directional_albedo(alpha, cosine.max(0.0), [60, 32]);
+            let mirrored = (1.0 + mirror.z).clamp(0.0, 1.0) * (f0 * scale + bias);
+            let (diffuse, specular) = (environment(normal, 1.0), environment(mirror, alpha));
+            for channel in 0..3 {
+                let paint = self.painted[texel][channel] * leaving * diffuse[channel] + mirrored * specular[channel];
+                radiance[channel] += weight * self.painted[texel][3] * paint;
+            }
+        }
+        radiance
     }
 
     /// The texels around the point that the ray meets, and the share of the light that it sees.

@@ -1,9 +1,12 @@
+use std::sync::Arc;
+
 use glam::{DVec3, dvec3};
 use overpaint::{
-    data::{Camera, Direction, Light, Map, Mesh, MeshView, Projection, Sampling, Shape},
+    data::{Camera, Direction, Environment, Light, Map, Mesh, MeshView, Projection, Sampling, Shape, Surroundings},
     gpu::Gpu,
     model::{Boundary, Relief},
     pipeline::{Progress, Renderer},
+    reference,
     render::Output,
     stage::Minify,
 };
@@ -16,7 +19,7 @@ use crate::{
     },
 };
 
-crate::suite! { gpu: the_plane_from_above_is_the_reconstruction, a_plateau_has_its_depth, a_mirrored_light_gives_the_mirrored_picture, a_point_light_far_away_is_directional, flat_height_is_a_plain_texture, no_paint_is_the_bare_material, white_paint_sends_back_what_it_gets, a_far_material_keeps_its_mean_and_does_not_shimmer, a_turn_is_a_turn_of_the_mesh; }
+crate::suite! { gpu: the_plane_from_above_is_the_reconstruction, a_plateau_has_its_depth, a_mirrored_light_gives_the_mirrored_picture, a_point_light_far_away_is_directional, flat_height_is_a_plain_texture, no_paint_is_the_bare_material, white_paint_sends_back_what_it_gets, a_far_material_keeps_its_mean_and_does_not_shimmer, a_turn_is_a_turn_of_the_mesh, a_uniform_environment_has_its_closed_form, lights_stand_for_an_environment; }
 
 const PARALLEL: Projection = Projection::Orthographic { height: 1.0 };
 
@@ -59,7 +62,7 @@ fn a_mirrored_light_gives_the_mirrored_picture(gpu: &Gpu) {
     let one = bumpy(48, 48, Boundary::Periodic, 6);
     let mut level = plain(48, 48);
     level.diffuse = one.diffuse.clone();
-    let mirrored = overpaint::reference::Surface {
+    let mirrored = reference::Surface {
         diffuse: Map::from_fn(48, 48, |column, row| one.diffuse[(47 - column, row)]),
         ..level.clone()
     };
@@ -199,7 +202,7 @@ fn a_far_material_keeps_its_mean_and_does_not_shimmer(gpu: &Gpu) {
 fn a_turn_is_a_turn_of_the_mesh(gpu: &Gpu) {
     let surface = bumpy(32, 32, Boundary::Periodic, 9);
     let camera = Camera::around(DVec3::ZERO, 1.0, [0.2, 0.3], Projection::Perspective { field_of_view: 0.5 }, [64, 64]);
-    let still = view(Shape::Plane.mesh(), [1.0; 2], camera, &directional(dvec3(0.5, 0.3, 1.0)));
+    let still = MeshView { surroundings: around(Environment::sky()), ..view(Shape::Plane.mesh(), [1.0; 2], camera, &directional(dvec3(0.5, 0.3, 1.0))) };
     let angle: f64 = 0.4;
     let turn = |[x, y, z]: [f32; 3]| {
         let (sine, cosine) = (angle.sin() as f32, angle.cos() as f32);
@@ -219,4 +222,57 @@ fn a_turn_is_a_turn_of_the_mesh(gpu: &Gpu) {
     let errors = one.values().iter().zip(other.values()).filter(|(a, b)| (0..4).any(|c| (a[c] - b[c]).abs() > 5e-3));
     // Pixels whose centre lies on the outline, or on an edge of the relief.
     hold("mesh: pixels that a turn changes", errors.count() as f64 / 4096.0, 0.01);
+}
+
+fn around(environment: Environment) -> Option<Surroundings> {
+    Some(Surroundings { environment: Arc::new(environment), strength: 1.0, turn: 0.0 })
+}
+
+/// Level paint under 1 from everywhere: what enters comes back by its reflectance where the view lets it, and the coat mirrors its albedo.
+fn a_uniform_environment_has_its_closed_form(gpu: &Gpu) {
+    let mut surface = plain(4, 4);
+    surface.painted = surface.painted.map(|_| [0.5, 0.25, 0.75, 1.0]);
+    let white = Environment::uniform([1.0; 3]).expect("is one");
+    for (f0, alpha, angle) in [(0.04, 0.3, 0.2_f64), (0.25, 0.1, 1.0), (0.1, 0.8, 1.3)] {
+        surface.coat = surface.coat.map(|_| [f0, alpha]);
+        let toward = dvec3(angle.sin(), 0.0, angle.cos());
+        let camera = Camera { eye: 3.0 * toward, depths: [0.5, 6.0], ..above([9, 9]) };
+        let view = MeshView { surroundings: around(white.clone()), ..view(Shape::Plane.mesh(), [1.0; 2], camera, &[]) };
+        let seen = draw(gpu, &view, &surface, Output::Radiance)[(4, 4)];
+        let cosine = angle.cos();
+        let leaving = 1.0 - (f0 + (1.0 - f0) * (1.0 - cosine).powi(5));
+        let [scale, bias] = reference::directional_albedo(alpha, cosine, [200, 64]);
+        for (channel, reflectance) in [0.5, 0.25, 0.75].into_iter().enumerate() {
+            let expected = leaving * reflectance + f0 * scale + bias;
+            // The table between its entries is good to 8e-3, held where it is made.
+            hold("mesh: paint under a white environment", (f64::from(seen[channel]) - expected).abs(), 8e-3);
+        }
+    }
+}
+
+/// Eight lights of a white environment on bare white, seen from above: four stand over the plane, at about 27 degrees on the mean, and
+/// each brings a quarter of what comes from there.
+fn lights_stand_for_an_environment(gpu: &Gpu) {
+    for environment in [Environment::uniform([1.0; 3]).expect("is one"), Environment::studio(), Environment::sky()] {
+        let flux = |toward: DVec3, lights: &[Light]| {
+            lights.iter().map(|light| {
+                let Light::Directional { toward: from, irradiance } = light else { panic!("{light:?}") };
+                from.dot(toward).max(0.0) * irradiance[1]
+            })
+            .sum::<f64>()
+        };
+        // Against very many, which are nearly the integral.
+        let (few, many) = (environment.lights(8), environment.lights(2048));
+        assert_eq!(few.len(), 8);
+        for toward in [DVec3::Y, DVec3::Z, DVec3::X, dvec3(0.5, 0.6, 0.62).normalize()] {
+            let (few, many) = (flux(toward, &few), flux(toward, &many));
+            hold("environment: irradiance by eight lights", (few / many - 1.0).abs(), 0.25);
+        }
+        let total = |lights: &[Light]| lights.iter().map(|light| match light { Light::Directional { irradiance, .. } => irradiance[1], Light::Point { .. } => f64::NAN }).sum::<f64>();
+        hold("environment: light of eight and of many", (total(&few) / total(&many) - 1.0).abs(), 1e-6);
+    }
+    let white = Environment::uniform([1.0; 3]).expect("is one");
+    let view = MeshView { surroundings: around(white), ..view(Shape::Plane.mesh(), [1.0; 2], above([9, 9]), &[]) };
+    let seen = draw(gpu, &view, &plain(4, 4), Output::Radiance)[(4, 4)];
+    hold("mesh: bare white under a white environment", (f64::from(seen[1]) - 1.0).abs(), 0.25);
 }

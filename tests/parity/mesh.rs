@@ -1,8 +1,10 @@
+use std::sync::Arc;
+
 use glam::{DVec3, dvec3};
 use overpaint::{
-    data::{Camera, Light, Map, Mesh, MeshView, Projection, Sampling, Shape},
+    data::{Camera, Direction, Environment, Grid, Light, Map, Mesh, MeshView, Projection, Sampling, Shape, Surroundings},
     gpu::Gpu,
-    model::Boundary,
+    model::{Boundary, TexelSamples},
     pipeline::{Progress, Renderer},
     reference::{self, Surface},
     render::Output,
@@ -11,10 +13,12 @@ use overpaint::{
 
 use crate::support::{
     hold,
+    lpca::{self, product},
+    random::Random,
     surface::{bumpy, compare, upload},
 };
 
-crate::suite! { gpu: agrees_with_its_twin, shadows_agree_with_rays, averages_agree_with_their_twin; }
+crate::suite! { gpu: agrees_with_its_twin, the_local_pca_agrees, painted_environments_agree, shadows_agree_with_rays, averages_agree_with_their_twin; }
 
 /// What `output` says of `view` on the adapter, one ray a pixel.
 pub fn draw(gpu: &Gpu, view: &MeshView, surface: &Surface, output: Output) -> Map<[f32; 4]> {
@@ -72,6 +76,46 @@ fn floor_and_card() -> Mesh {
     let vertices = positions.len();
     let tangents = vec![[1.0, 0.0, 0.0, 1.0]; vertices];
     Mesh::new(positions, vec![[0.0, 1.0, 0.0]; vertices], tangents, coordinates, triangles).expect("is a mesh")
+}
+
+/// Bare parts from a compressed BTF of another size than the surface, painted ones as ever.
+fn the_local_pca_agrees(gpu: &Gpu) {
+    let mut random = Random::new(12);
+    let directions: Vec<Direction> = "0:1,30:6,60:12".parse::<Grid>().expect("is a grid").directions();
+    let lpca = lpca::random(&mut random, [16, 8], product(directions.len(), directions.len()), [5, 3]);
+    let twin = reference::CompressedBtf::new(&lpca, &directions, &directions, Boundary::Periodic).expect("fits");
+    let surface = bumpy(32, 16, Boundary::Periodic, 13);
+    let lights = [Light::Directional { toward: dvec3(0.3, 0.4, 0.9).normalize(), irradiance: [1.0; 3] }];
+    let camera = Camera::around(DVec3::ZERO, 1.4, [0.4, 0.5], Projection::Perspective { field_of_view: 0.6 }, [48, 40]);
+    let renderer = Renderer::new(gpu).expect("builds");
+    let progress = Progress::new(gpu.adapter());
+    for texel_samples in TexelSamples::ALL {
+        let sampling = Sampling { rays: 1, pictures: 1 };
+        let view = MeshView { unpainted: Some(texel_samples), sampling, ..view(Shape::Sphere.mesh(), [2.0; 2], camera, &lights) };
+        let btf = lpca::upload(gpu, &lpca, &directions, &directions, Boundary::Periodic);
+        let dressed = renderer.show(&view, upload(gpu, &surface), Some((btf, texel_samples)), &progress).expect("fits");
+        let found = renderer.picture(&dressed, &camera, Output::Radiance, &progress).expect("fits");
+        let expected = reference::mesh(&view, reference::Worn { surface: &surface, compressed: Some(&twin) });
+        let [_, differing] = compare(&found, &expected, 5e-3);
+        // Pixels near an edge; and, of one texel, those on the border of two, which random texels make a jump.
+        hold("mesh: share of pixels off by the local PCA", differing, 0.02);
+    }
+}
+
+fn painted_environments_agree(gpu: &Gpu) {
+    let mut surface = bumpy(24, 24, Boundary::Periodic, 14);
+    surface.painted = surface.painted.map(|&[r, g, b, _]| [r, g, b, 1.0]);
+    let environment = Arc::new(Environment::sky());
+    let camera = Camera::around(DVec3::ZERO, 1.4, [0.4, 0.5], Projection::Perspective { field_of_view: 0.6 }, [20, 16]);
+    let surroundings = Some(Surroundings { environment, strength: 1.5, turn: 0.7 });
+    let view = MeshView { surroundings, ..view(Shape::Plane.mesh(), [1.0; 2], camera, &[]) };
+    let found = draw(gpu, &view, &surface, Output::Radiance);
+    let expected = reference::mesh(&view, reference::Worn { surface: &surface, compressed: None });
+    // Levels are read between four texels of 2 degrees or more and between two roughnesses, and the table of albedos between its entries: a
+    // small light's reflection is up to 14 % off (model::environment), here of a sun that gives a few tenths.
+    let [flip, differing] = compare(&found, &expected, 0.06);
+    hold("mesh: mean FLIP in an environment", flip, 0.03);
+    hold("mesh: share of pixels off by more than 0.06 in an environment", differing, 0.03);
 }
 
 fn shadows_agree_with_rays(gpu: &Gpu) {
