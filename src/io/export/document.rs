@@ -1,6 +1,6 @@
 //! A glTF document in the making: what goes into its buffer, and what names it.
 
-use std::mem::size_of;
+use std::mem::size_of_val;
 
 use gltf::json::{
     self, Accessor, Buffer, Image, Index, Root, Texture,
@@ -48,7 +48,7 @@ impl Document {
 
     /// An attribute of vertices of `N` floats; with the smallest and the largest, where they are asked for.
     pub(super) fn vertices<const N: usize>(&mut self, values: &[[f32; N]], bounds: Option<[[f32; N]; 2]>) -> Index<Accessor> {
-        self.bytes.reserve(size_of::<[f32; N]>() * values.len() + 3);
+        self.bytes.reserve(size_of_val(values) + 3);
         let view = self.view(values.iter().flatten().flat_map(|value| value.to_le_bytes()), Some(Target::ArrayBuffer));
         let type_ = [Type::Vec2, Type::Vec3, Type::Vec4][N - 2];
         let accessor = accessor(view, ComponentType::F32, type_, values.len());

@@ -46,7 +46,7 @@ impl Textures {
             let above = texels.iter().filter(|texel| value(texel).iter().any(|value| *value > 1.0)).count();
             above as f64 / texels.len() as f64
         };
-        let most = texels.iter().flat_map(|texel| specular_color(texel)).fold(0.0, f64::max);
+        let most = texels.iter().flat_map(specular_color).fold(0.0, f64::max);
         // A texture of nothing but zeros may have any factor.
         let factor = if most > 0.0 { most } else { 1.0 };
         let png = |codes: Vec<u8>, color: ExtendedColorType| encoded_png(path, &codes, size, color);
