@@ -11,7 +11,6 @@ use overpaint::{
     io,
     model::{Layer, Paint, PaintMethod, Pattern, Relief, TexelSamples, pigments},
     pipeline::{Painter, Pictured, Progress, Renderer, Studio},
-    render::Output,
 };
 
 mod rates;
@@ -103,7 +102,7 @@ impl Bench<'_> {
             self.renderer.relight(&mut dressed, view, &progress)?;
             shadows = shadows.min(start.elapsed().as_secs_f64());
             let start = Instant::now();
-            let pixels = self.renderer.picture(&dressed, &view.camera, Output::Radiance, &progress)?;
+            let pixels = self.renderer.radiance(&dressed, &view.camera, &progress)?;
             picture = picture.min(start.elapsed().as_secs_f64());
             covered = pixels.values().iter().filter(|pixel| pixel[3] > 0.0).count();
         }

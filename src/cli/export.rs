@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgGroup, Args, CommandFactory, error::ErrorKind};
+use clap::{ArgGroup, Args};
 
-use super::{Cli, CliError, arguments, output, say};
-use crate::{
-    data::{Mesh, Shape},
-    io::{self, export},
-};
+use super::{CliError, arguments, mesh, output, say};
+use crate::io::{self, export};
 
 /// Write a material for other tools: maps as OpenEXR, or a mesh that wears it as glTF.
 #[derive(Debug, Args)]
@@ -49,7 +46,11 @@ impl Export {
         let gltf = match &self.gltf {
             Some((path, format)) => {
                 output::check_file(path)?;
-                Some((path, *format, self.mesh()?))
+                let (mesh, warnings) = mesh::named(&self.mesh)?;
+                for warning in &warnings {
+                    eprintln!("warning: {warning}");
+                }
+                Some((path, *format, mesh))
             }
             None => None,
         };
@@ -63,22 +64,5 @@ impl Export {
             say(&format!("wrote {}, which does not hold all of the material:\n  {}", path.display(), lost.join("\n  ")))?;
         }
         Ok(())
-    }
-
-    /// The mesh as typed. What was made up for it is told on stderr.
-    fn mesh(&self) -> Result<Mesh, CliError> {
-        if let Some(shape) = Shape::ALL.into_iter().find(|shape| self.mesh.as_os_str() == shape.name()) {
-            return Ok(shape.mesh());
-        }
-        if self.mesh.extension().is_none() && !self.mesh.exists() {
-            let message =
-                format!("{} is neither a mesh of this program (plane, sphere, torus-knot, cloth) nor a file", self.mesh.display());
-            return Err(Cli::command().error(ErrorKind::ValueValidation, message).into());
-        }
-        let loaded = io::mesh::load(&self.mesh)?;
-        for warning in &loaded.warnings {
-            eprintln!("warning: {warning}");
-        }
-        Ok(loaded.mesh)
     }
 }

@@ -104,7 +104,8 @@ enum ToneMapName {
 impl MeshArguments {
     /// The pictures as typed, of `material`, if they are of a mesh.
     pub fn job(&self, material: &Path, size: [u32; 2]) -> Result<Option<Job>, CliError> {
-        let Some((mesh, mut warnings)) = self.mesh()? else { return Ok(None) };
+        let Some(mesh) = &self.mesh else { return Ok(None) };
+        let (mesh, mut warnings) = named(mesh)?;
         let mut lights: Vec<_> = self.sun.iter().map(|bearing| Light::sun(*bearing, [1.0; 3])).collect();
         lights.extend(self.lamp.iter().map(|place| Light::Point { place: (*place).into(), irradiance: [1.0; 3] }));
         let surroundings = self.environment.as_ref().map(|environment| job::environment(environment)).transpose()?;
@@ -148,16 +149,20 @@ impl MeshArguments {
             warnings,
         }))
     }
+}
 
-    /// The mesh as typed and what was made up for it, if there is one.
-    fn mesh(&self) -> Result<Option<(Mesh, Vec<String>)>, CliError> {
-        let Some(path) = &self.mesh else { return Ok(None) };
-        if let Some(shape) = Shape::ALL.into_iter().find(|shape| path.as_os_str() == shape.name()) {
-            return Ok(Some((shape.mesh(), Vec::new())));
-        }
-        let loaded = io::mesh::load(path)?;
-        Ok(Some((loaded.mesh, loaded.warnings.iter().map(ToString::to_string).collect())))
+/// A built-in shape by its name, or the mesh of a file, and what was made up for it.
+pub fn named(mesh: &Path) -> Result<(Mesh, Vec<String>), CliError> {
+    if let Some(shape) = Shape::ALL.into_iter().find(|shape| mesh.as_os_str() == shape.name()) {
+        return Ok((shape.mesh(), Vec::new()));
     }
+    if mesh.extension().is_none() && !mesh.exists() {
+        let shapes = Shape::ALL.map(Shape::name).join(", ");
+        let message = format!("{} is neither a mesh of this program ({shapes}) nor a file", mesh.display());
+        return Err(Cli::command().error(ErrorKind::ValueValidation, message).into());
+    }
+    let loaded = io::mesh::load(mesh)?;
+    Ok((loaded.mesh, loaded.warnings.iter().map(ToString::to_string).collect()))
 }
 
 /// Refuses what the kind of the output does not have.

@@ -19,7 +19,6 @@ use crate::{
     io::{self, job::Job},
     model::Relief,
     pipeline::{self, Dressed, Renderer, Studio},
-    render::Output,
 };
 
 /// Show a material as a plane in space or on a mesh, bare or painted.
@@ -160,7 +159,7 @@ fn is_film(path: &Path) -> bool {
 fn picture(
     renderer: &Renderer<'_>, dressed: &Dressed, view: &MeshView, job: &Job, material: &Material, file: &Path, session: &Session,
 ) -> Result<(), CliError> {
-    let picture = renderer.picture(dressed, &view.camera, Output::Radiance, &session.progress)?;
+    let picture = renderer.radiance(dressed, &view.camera, &session.progress)?;
     if !job.channels.is_empty() {
         let channels = renderer.channels(dressed, &view.camera, material, &job.channels, &session.progress)?;
         return Ok(io::picture::write_channels(file, &picture, &channels)?);

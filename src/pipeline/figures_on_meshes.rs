@@ -8,7 +8,6 @@ use super::{
 use crate::{
     data::{Camera, Light, Map, Mesh, MeshView, Recipe, Sampling, Shape},
     model::{Development, Layer, Paint, PaintMethod, Pattern, TexelSamples, pigments},
-    render::Output,
 };
 
 /// A picture's columns and rows.
@@ -200,7 +199,7 @@ impl OnMeshes<'_> {
             ..MeshView::new(mesh.clone(), camera, Light::pair())
         };
         let dressed = self.renderer.dress(studio, &view, &painted, progress)?;
-        let picture = self.renderer.picture(&dressed, &camera, Output::Radiance, progress)?;
+        let picture = self.renderer.radiance(&dressed, &camera, progress)?;
         Ok(picture.map(|&pixel| Development::default().develop(pixel)))
     }
 }

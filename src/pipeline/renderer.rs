@@ -173,6 +173,14 @@ impl<'g> Renderer<'g> {
         Ok(all)
     }
 
+    /// What `camera` sees of `dressed`, `[row][column]`: R, G, B in reflectance units times coverage, and coverage.
+    ///
+    /// # Errors
+    /// [`PipelineError::Gpu`] if it does not fit the adapter.
+    pub fn radiance(&self, dressed: &Dressed, camera: &Camera, progress: &Progress) -> Result<Map<[f32; 4]>, PipelineError> {
+        self.picture(dressed, camera, Output::Radiance, progress)
+    }
+
     /// What `output` says of `dressed`, seen by `camera`, `[row][column]`, 0 where nothing is. Of a radiance it is the mean of as many
     /// pictures as its view asks for; directions, distances and texels, which have no mean, are those in the middle of each pixel.
     ///
