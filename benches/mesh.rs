@@ -1,5 +1,5 @@
-//! Time of a picture of a mesh, pass by pass, by what its bare part is made from, by texel samples, by relief and by pixels, and which part of the
-//! adapter's rates its loads and arithmetic reach: `cargo bench --bench mesh -- [MESH…]`, of the built-in shapes and of those files. The material
+//! Time of a picture of a mesh and of its shadow maps, by what its bare part is made from, by texel samples, by relief and by pixels, and which part of the
+//! adapter's rates its loads and arithmetic reach at most: `cargo bench --bench mesh -- [MESH…]`, of the built-in shapes and of those files. The material
 //! is the sample inside the program, fitted first; painted it has the thesis' four layers (fig. 4.15). The best of three pictures at 768 x 768,
 //! one ray a pixel, under two lights.
 
@@ -117,7 +117,8 @@ impl Bench<'_> {
         Ok(each)
     }
 
-    /// Prints the part of the adapter's rates that looking up the local PCA reaches, the whole picture's time taken for it.
+    /// Prints the part of the adapter's rates that looking up the local PCA reaches, the whole picture's time taken for it and every pixel lit by both
+    /// lights.
     fn share(&self, material: &Material, samples: TexelSamples, seconds: f64) {
         let Some(lpca) = &material.lpca else { return };
         // Of two lights: each texel its words, and each cluster of a place nine pairs of all terms, of which there is one at least.
@@ -125,7 +126,7 @@ impl Bench<'_> {
         let loads = 2.0 * (f64::from(samples.count()) * (4.0 + 2.0 * terms) + 9.0 * terms * 8.0);
         let arithmetic = 2.0 * (f64::from(samples.count()) * terms * 2.0 + 9.0 * terms * 6.0);
         println!(
-            "{:<44}at least {:.1} % of the load rate, {:.1} % of the arithmetic",
+            "{:<44}at most {:.1} % of the load rate, {:.1} % of the arithmetic",
             "",
             100.0 * loads / seconds / self.rates.loads,
             100.0 * arithmetic / seconds / self.rates.arithmetic

@@ -58,9 +58,9 @@ struct Pixel {
     @location(0) value: vec4<f32>,
 }
 
-// Place on the plane of texels, centres at whole numbers.
+// Place on the plane of texels, centres at whole numbers: rows run down from v's largest, the upper edge of the sheet.
 fn place_of(vertex: Vertex) -> vec2<f32> {
-    return vec2(vertex.u * f32(scene.width), -vertex.v * f32(scene.height)) - 0.5;
+    return vec2(vertex.u * f32(scene.width), camera.sheet.y - vertex.v * f32(scene.height)) - 0.5;
 }
 
 fn clip_of(position: vec3<f32>) -> vec4<f32> {
@@ -87,7 +87,8 @@ fn vertex(@builtin(vertex_index) index: u32) -> Fragment {
     out.tangent = own.tangent;
     out.place = place_of(own);
     out.handedness = own.handedness;
-    out.texel_width = sqrt(area / max(texels, 1e-20));
+    // A triangle whose texture coordinates have no area shows one texel, and no relief.
+    out.texel_width = select(0.0, sqrt(area / texels), texels > 1e-6);
     return out;
 }
 
@@ -113,31 +114,51 @@ fn world_of(frame: BaseFrame, direction: vec3<f32>) -> vec3<f32> {
     return direction.x * frame.tangent + direction.y * frame.bitangent + direction.z * frame.normal;
 }
 
+// Signs of a direction's components in the material's own axes at a place: -1 along x, y where the piece is mirrored.
+fn signs_at(place: vec2<f32>) -> vec3<f32> {
+    if scene.boundary != MIRROR {
+        return vec3(1.0);
+    }
+    let piece = floor((place + 0.5) / vec2(f32(scene.width), f32(scene.height)));
+    return vec3(select(vec2(1.0), vec2(-1.0), abs(piece) % 2.0 == vec2(1.0)), 1.0);
+}
+
 // Radiance towards the camera of the ray through a place of the base plane.
 fn seen_radiance(in: Fragment, frame: BaseFrame, base: vec2<f32>, hit: Hit, level: u32, view: vec3<f32>) -> vec3<f32> {
     let sight = sight_of(base, hit, level);
+    // A mirrored piece looks as the material does under mirrored directions.
+    let at_base = signs_at(base);
+    let at_hit = signs_at(hit.place);
     var radiance = vec3(0.0);
     for (var index = 0u; index < camera.lights; index++) {
         let light = lights[index];
         let way = light.place.xyz - light.place.w * in.position;
-        let toward = in_base(frame, normalize(way));
-        if toward.z < MIN_COSINE || !shines(light, -way) {
+        let distance2 = dot(way, way);
+        if distance2 == 0.0 || !shines(light, -way) {
             continue;
         }
-        let irradiance = light.irradiance.rgb / select(1.0, dot(way, way), light.place.w == 1.0);
+        let toward = in_base(frame, way * inverseSqrt(distance2));
+        if toward.z < MIN_COSINE {
+            continue;
+        }
+        let irradiance = light.irradiance.rgb / select(1.0, distance2, light.place.w == 1.0);
         let reached = mesh_visibility(light, in.position, frame.normal);
         if reached > 0.0 {
             let visible = visibility(hit, toward);
-            var seen = bare_part(sight, visible, view, toward);
+            var seen = bare_part(sight, visible, at_base * view, at_base * toward);
             if light.bare_only == 0u {
-                seen += painted_part(sight, visible, view, toward);
+                seen += painted_part(sight, visible, at_hit * view, at_hit * toward);
             }
             radiance += reached * irradiance * seen;
         }
     }
     if camera.environment.x > 0.0 {
-        let axes = mat3x3(in_environment(frame.tangent), in_environment(frame.bitangent), in_environment(frame.normal));
-        radiance += camera.environment.x * painted_surroundings_part(sight, view, axes);
+        let axes = mat3x3(
+            at_hit.x * in_environment(frame.tangent),
+            at_hit.y * in_environment(frame.bitangent),
+            in_environment(frame.normal),
+        );
+        radiance += camera.environment.x * painted_surroundings_part(sight, at_hit * view, axes);
     }
     return radiance;
 }
@@ -158,8 +179,7 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> Pixel {
     view = normalize(vec3(view.xy, max(view.z, LOWEST_VIEW)));
     let hit = first_hit(in.place, view);
     if camera.silhouette == 1u {
-        // v runs from 0 at the lower edge up, rows from there down.
-        let inside = vec2(hit.place.x + 0.5, hit.place.y + 0.5 + camera.sheet.y);
+        let inside = hit.place + 0.5;
         if any(inside < vec2(0.0)) || any(inside >= camera.sheet) {
             discard;
         }
@@ -167,18 +187,20 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> Pixel {
     let met = in.position + towards * (hit.height * in.texel_width / view.z);
     let clip = clip_of(met);
     var out: Pixel;
-    out.depth = clamp(clip.z / clip.w, 0.0, 1.0);
+    // What lies beyond the far plane, in the deeps of the relief, is still seen: cleared pixels have 1.
+    out.depth = clamp(clip.z / clip.w, 0.0, 1.0 - 6e-8);
     switch camera.output {
         case OUTPUT_GEOMETRY: {
             // Of parallel rays the plane through the origin.
             let distance = select(-dot(camera.eye.xyz, met), clip.w, camera.eye.w == 1.0);
-            out.value = vec4(normalize(world_of(frame, normal_at(hit.place))), distance);
+            out.value = vec4(normalize(world_of(frame, signs_at(hit.place) * normal_at(hit.place))), distance);
         }
         case OUTPUT_PAINT: {
             let coverage = dot(sight_of(in.place, hit, 0u).covered, vec4(1.0));
-            let texel = round(hit.place);
-            let sheet = vec2(f32(scene.width), f32(scene.height));
-            out.value = vec4(coverage, hit.height, texel - sheet * floor(texel / sheet));
+            let texel = vec2<i32>(round(hit.place));
+            let column = wrap(texel.x, scene.width, scene.boundary);
+            let row = wrap(texel.y, scene.height, scene.boundary);
+            out.value = vec4(coverage, hit.height, f32(column), f32(row));
         }
         default: {
             // Texels that the pixel covers where it covers most, spread over its rays; what a ray still covers is for the level.

@@ -8,10 +8,13 @@ use crate::{
     data::{Block, Direction, RowOrder, Transfer},
     io::{
         export::GltfFormat,
-        job::{MAX_PIXELS, MAX_SIDE},
+        job::{LEAST_ANGLE, MAX_PIXELS, MAX_SIDE},
     },
     model::{Boundary, SpecularScale, StereoMethod, SurfaceMode, TexelSamples},
 };
+
+/// Largest side of a texture that WebGPU guarantees.
+pub const MAX_TEXTURE_SIDE: u32 = 8192;
 
 /// `THETA,PHI` in degrees; θ from 0 to below 90.
 pub fn direction(text: &str) -> Result<Direction, String> {
@@ -33,28 +36,45 @@ pub fn bearing(text: &str) -> Result<[f64; 2], String> {
         .ok_or_else(|| "expected AZIMUTH,ELEVATION in degrees, such as 30,20; ELEVATION from -90 to 90".to_owned())
 }
 
+/// A number from `least` to `most`.
+pub fn within(least: f64, most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let fits = |value: &f64| (least..=most).contains(value);
+        number(text).ok().filter(fits).ok_or_else(|| format!("expected a number from {least} to {most}"))
+    }
+}
+
 /// `X,Y,Z`.
 pub fn place(text: &str) -> Result<[f64; 3], String> {
     let place = || {
         let mut parts = text.split(',').map(|part| number(part.trim()).ok());
         let place = [parts.next()??, parts.next()??, parts.next()??];
-        parts.next().is_none().then_some(place)
+        (parts.next().is_none() && place.iter().all(|x: &f64| x.abs() <= 1e6)).then_some(place)
     };
-    place().ok_or_else(|| "expected X,Y,Z, such as 1,2,3".to_owned())
+    place().ok_or_else(|| "expected X,Y,Z, such as 1,2,3, each at most 1e6".to_owned())
 }
 
-/// Degrees from 0 to 170.
+/// 0, or degrees up to 170.
 pub fn angle_of_view(text: &str) -> Result<f64, String> {
-    number(text).ok().filter(|angle| (0.0..=170.0).contains(angle)).ok_or_else(|| "expected an angle from 0 to 170 degrees".to_owned())
+    let fits = |angle: &f64| *angle == 0.0 || (LEAST_ANGLE..=170.0).contains(angle);
+    number(text).ok().filter(fits).ok_or_else(|| format!("expected 0, or an angle from {LEAST_ANGLE} to 170 degrees"))
 }
 
-/// `WxH` in pixels.
+/// `WxH` in pixels of one texture.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
-    text.split_once('x')
-        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+    sides(text, MAX_TEXTURE_SIDE).ok_or_else(|| format!("expected WxH in pixels, such as 512x512, each side from 1 to {MAX_TEXTURE_SIDE}"))
+}
+
+/// `WxH` in pixels of a picture that is drawn in tiles.
+pub fn picture_size(text: &str) -> Result<[u32; 2], String> {
+    sides(text, MAX_SIDE)
         .filter(|[width, height]| u64::from(*width) * u64::from(*height) <= MAX_PIXELS)
         .ok_or_else(|| format!("expected WxH in pixels, such as 512x512, each side from 1 to {MAX_SIDE} and {MAX_PIXELS} pixels in all"))
+}
+
+fn sides(text: &str, most: u32) -> Option<[u32; 2]> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=most).contains(side));
+    text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]))
 }
 
 /// The path of a picture: `.png` or `.exr`.

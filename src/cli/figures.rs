@@ -10,7 +10,7 @@ use clap::Args;
 use super::{CliError, model::misplaced, output, say, session::SessionArguments};
 use crate::{
     io,
-    pipeline::{self, Pictured},
+    pipeline::{self, FigureSettings, Pictured},
 };
 
 /// Make the figures of painted materials that the thesis has, as one illustrated page.
@@ -32,6 +32,12 @@ pub struct Figures {
     /// A model to show painted, beside the built-in ones: .obj, .gltf or .glb; may be given several times
     #[arg(long, value_name = "MESH")]
     mesh: Vec<PathBuf>,
+    /// Columns of each picture
+    #[arg(long, value_name = "N", default_value_t = FigureSettings::default().side, value_parser = clap::value_parser!(u32).range(64..=4096))]
+    side: u32,
+    /// Rays a pixel of the models
+    #[arg(long, value_name = "N", default_value_t = FigureSettings::default().rays, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    spp: u32,
     /// Folder for figures.html and its pictures
     #[arg(short, long, value_name = "DIR", default_value = "figures")]
     output: PathBuf,
@@ -63,7 +69,14 @@ impl Figures {
         if materials.is_empty() {
             materials.push(Pictured::sample(&session.gpu, &session.progress)?);
         }
-        pipeline::figures(&session.gpu, &materials, models, &self.output, &session.progress)?;
+        pipeline::figures(
+            &session.gpu,
+            &materials,
+            models,
+            FigureSettings { side: self.side, rays: self.spp },
+            &self.output,
+            &session.progress,
+        )?;
         let times = session.finish()?;
         say(&format!("{times}\nwrote {}", page.display()))
     }

@@ -7,12 +7,15 @@ use std::{
 
 use clap::{Args, CommandFactory, ValueEnum, error::ErrorKind};
 
-use super::{Cli, CliError, arguments, model::Model};
+use super::{
+    Cli, CliError, arguments,
+    model::{Model, misplaced},
+};
 use crate::{
     data::{Camera, Channel, Light, Mesh, MeshView, Sampling, Shape, Surroundings},
     io::{
         self,
-        job::{self, Job},
+        job::{self, Job, MAX_LIGHTS},
     },
     model::{Development, TexelSamples, ToneMap},
 };
@@ -25,7 +28,7 @@ pub struct MeshArguments {
     #[arg(long, value_name = "MESH")]
     mesh: Option<PathBuf>,
     /// Pieces of the material per unit of texture coordinates
-    #[arg(long, value_name = "N", requires = "mesh", default_value_t = 1.0, value_parser = arguments::positive)]
+    #[arg(long, value_name = "N", requires = "mesh", default_value_t = 1.0, allow_negative_numbers = true, value_parser = arguments::within(1e-3, 1e4))]
     tiling: f64,
     /// Where the camera stands: azimuth from the front to the right, and elevation, in degrees
     #[arg(long, value_name = "AZIMUTH,ELEVATION", requires = "mesh", default_value = "30,20", allow_hyphen_values = true, value_parser = arguments::bearing)]
@@ -43,7 +46,7 @@ pub struct MeshArguments {
     #[arg(long, value_name = "ENVIRONMENT", requires = "mesh")]
     environment: Option<PathBuf>,
     /// Factor on the light of --environment
-    #[arg(long, value_name = "N", requires = "environment", default_value_t = 1.0, value_parser = arguments::positive)]
+    #[arg(long, value_name = "N", requires = "environment", default_value_t = 1.0, allow_negative_numbers = true, value_parser = arguments::within(1e-6, 1e6))]
     environment_strength: f64,
     /// How far --environment is turned about the vertical axis, its front to the right, in degrees
     #[arg(long, value_name = "DEGREES", requires = "environment", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::number)]
@@ -57,9 +60,9 @@ pub struct MeshArguments {
     /// What the bare part is made from
     #[arg(long, value_name = "MODEL", requires = "mesh", value_enum, default_value_t = Model::Svbrdf)]
     unpainted: Model,
-    /// With --unpainted lpca: texels that a place is interpolated from: 1, 4, 5, 9 or 25
-    #[arg(long, value_name = "N", requires = "mesh", default_value = "5", value_parser = arguments::texel_samples())]
-    texel_samples: TexelSamples,
+    /// With --unpainted lpca: texels that a place is interpolated from: 1, 4, 5, 9 or 25 [default: 5]
+    #[arg(long, value_name = "N", requires = "mesh", value_parser = arguments::texel_samples())]
+    texel_samples: Option<TexelSamples>,
     /// Rays a pixel
     #[arg(long, value_name = "N", requires = "mesh", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=4096))]
     spp: u32,
@@ -67,7 +70,7 @@ pub struct MeshArguments {
     #[arg(long, value_name = "CHANNELS", requires = "mesh", value_enum, value_delimiter = ',')]
     channels: Vec<ChannelName>,
     /// Powers of two that a .png is brighter by
-    #[arg(long, value_name = "STOPS", requires = "mesh", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::number)]
+    #[arg(long, value_name = "STOPS", requires = "mesh", default_value_t = 0.0, allow_negative_numbers = true, value_parser = arguments::within(-20.0, 20.0))]
     exposure: f64,
     /// How light that may exceed 1 is shown by a .png
     #[arg(long, value_name = "MAP", requires = "mesh", value_enum, default_value_t = ToneMapName::Neutral)]
@@ -102,10 +105,21 @@ enum ToneMapName {
 }
 
 impl MeshArguments {
+    /// Whether a mesh was typed, without which nothing else of it can be.
+    pub fn is_given(&self) -> bool {
+        self.mesh.is_some()
+    }
+
     /// The pictures as typed, of `material`, if they are of a mesh.
     pub fn job(&self, material: &Path, size: [u32; 2]) -> Result<Option<Job>, CliError> {
         let Some(mesh) = &self.mesh else { return Ok(None) };
         let (mesh, mut warnings) = named(mesh)?;
+        if self.texel_samples.is_some() && self.unpainted != Model::Lpca {
+            return Err(misplaced("--texel-samples tells of the local PCA; leave it out, or add --unpainted lpca"));
+        }
+        if self.sun.len() + self.lamp.len() > MAX_LIGHTS {
+            return Err(misplaced(format!("at most {MAX_LIGHTS} lights shine on a mesh; name fewer with --sun and --lamp")));
+        }
         let mut lights: Vec<_> = self.sun.iter().map(|bearing| Light::sun(*bearing, [1.0; 3])).collect();
         lights.extend(self.lamp.iter().map(|place| Light::Point { place: (*place).into(), irradiance: [1.0; 3] }));
         let surroundings = self.environment.as_ref().map(|environment| job::environment(environment)).transpose()?;
@@ -123,7 +137,7 @@ impl MeshArguments {
             surroundings,
             shadows: !self.no_mesh_shadows,
             silhouette: self.silhouettes,
-            unpainted: (self.unpainted == Model::Lpca).then_some(self.texel_samples),
+            unpainted: (self.unpainted == Model::Lpca).then(|| self.texel_samples.unwrap_or_default()),
             sampling: Sampling { pictures: self.spp, ..Sampling::default() },
             ..MeshView::new(mesh, camera, lights)
         };
@@ -143,7 +157,7 @@ impl MeshArguments {
             recipe: None,
             output: None,
             view,
-            channels: channels.collect(),
+            channels: job::distinct(channels.collect()),
             development: Development { exposure: self.exposure, tone_map },
             turntable: self.turntable,
             warnings,
@@ -171,6 +185,9 @@ pub fn check(job: &Job, output: &Path) -> Result<(), CliError> {
     let refuse = |message: &str| Err(Cli::command().error(ErrorKind::ArgumentConflict, message).into());
     match (extension.as_deref(), job.turntable) {
         (Some("mp4"), None) => refuse("a film is of a turntable; add --turntable N, or name a .png or .exr"),
+        (Some("exr"), _) if job.development != Development::default() => {
+            refuse("an .exr is linear light as it is; leave exposure and tone map out, or name a .png")
+        }
         (Some("png" | "mp4"), _) if !job.channels.is_empty() => {
             refuse("only an .exr has further channels; name one, or leave --channels out")
         }

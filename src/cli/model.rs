@@ -37,6 +37,6 @@ impl ModelArguments {
 }
 
 /// The error of an option that the model does not have.
-pub fn misplaced(message: &'static str) -> CliError {
+pub fn misplaced(message: impl std::fmt::Display) -> CliError {
     Cli::command().error(ErrorKind::ArgumentConflict, message).into()
 }

@@ -63,6 +63,11 @@ enum PatternName {
 }
 
 impl PaintingArguments {
+    /// Whether any was typed.
+    pub fn is_given(&self) -> bool {
+        self.recipe.is_some() || self.paint.is_some() || self.alpha_blend
+    }
+
     /// The paint as typed, read from its files, if there is any.
     pub fn painting(&self) -> Result<Option<Painting>, CliError> {
         let recipe = match &self.recipe {

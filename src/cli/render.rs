@@ -2,6 +2,7 @@
 
 use std::{
     f64::consts::TAU,
+    fs,
     path::{Path, PathBuf},
 };
 
@@ -10,6 +11,7 @@ use clap::{Args, CommandFactory, error::ErrorKind};
 use super::{
     Cli, CliError, arguments,
     mesh::{self, MeshArguments},
+    model::misplaced,
     output,
     painting::{Painting, PaintingArguments},
     session::{Session, SessionArguments},
@@ -17,7 +19,7 @@ use super::{
 use crate::{
     data::{Direction, Material, MeshView, PlaneView},
     io::{self, job::Job},
-    model::Relief,
+    model::{self, Relief},
     pipeline::{self, Dressed, Renderer, Studio},
 };
 
@@ -54,15 +56,15 @@ pub struct Render {
     paint: PaintingArguments,
     #[command(flatten)]
     mesh: MeshArguments,
-    /// Direction of the view of a plane
-    #[arg(long, value_name = "THETA,PHI", default_value = "40,270", conflicts_with = "mesh", allow_hyphen_values = true, value_parser = arguments::direction)]
-    view: Direction,
-    /// Direction of the light on a plane
-    #[arg(long, value_name = "THETA,PHI", default_value = "50,135", conflicts_with = "mesh", allow_hyphen_values = true, value_parser = arguments::direction)]
-    light: Direction,
-    /// Size of the image in pixels
-    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true, value_parser = arguments::size)]
-    size: [u32; 2],
+    /// Direction of the view of a plane [default: 40,270]
+    #[arg(long, value_name = "THETA,PHI", conflicts_with = "mesh", allow_hyphen_values = true, value_parser = arguments::direction)]
+    view: Option<Direction>,
+    /// Direction of the light on a plane [default: 50,135]
+    #[arg(long, value_name = "THETA,PHI", conflicts_with = "mesh", allow_hyphen_values = true, value_parser = arguments::direction)]
+    light: Option<Direction>,
+    /// Size of the image in pixels [default: 512x512]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = arguments::picture_size)]
+    size: Option<[u32; 2]>,
     /// The image to write: .png (sRGB) or .exr (linear, 32-bit float); of a turntable also .mp4
     #[arg(short, long, value_name = "IMAGE")]
     output: Option<PathBuf>,
@@ -71,10 +73,25 @@ pub struct Render {
     resume: bool,
 }
 
+/// Columns and rows where nothing else is said.
+const SIZE: [u32; 2] = [512, 512];
+
 impl Render {
     pub fn run(self, session: &SessionArguments) -> Result<(), CliError> {
         let from_file = self.material.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
-        let job = if from_file { Some(io::job::load(&self.material)?) } else { self.mesh.job(&self.material, self.size)? };
+        let size = self.size.unwrap_or(SIZE);
+        let job = match from_file {
+            true if self.mesh.is_given() || self.paint.is_given() || self.size.is_some() || self.view.is_some() || self.light.is_some() => {
+                return Err(misplaced(
+                    "a job says what is shown, and how; leave out all but -o, --resume, --adapter and --timings, or change the job",
+                ));
+            }
+            true => Some(io::job::load(&self.material)?),
+            false => self.mesh.job(&self.material, size)?,
+        };
+        if self.resume && job.as_ref().is_none_or(|job| job.turntable.is_none()) {
+            return Err(misplaced("--resume is for the pictures of a turntable; leave it out, or add --turntable N"));
+        }
         let painting = match job.as_ref().and_then(|job| job.recipe.as_ref()) {
             Some(recipe) => Some(Painting::load(recipe, false)?),
             None => self.paint.painting()?,
@@ -85,7 +102,7 @@ impl Render {
                 .error(ErrorKind::MissingRequiredArgument, "nothing says where the picture goes; name it with -o, such as -o picture.png")
         })?;
         let Some(job) = job else {
-            return self.plane(painting, &arguments::image(&output.to_string_lossy()), session);
+            return self.plane(painting, &output, session);
         };
         mesh::check(&job, &output)?;
         output::check_file(&output)?;
@@ -100,14 +117,22 @@ impl Render {
         if let Some(painting) = painting {
             material = painting.on(&material, &session)?;
         }
-        self.shoot(&job, &material, &output, &session)?;
+        let renderer = Renderer::new(&session.gpu)?;
+        Shooting { job: &job, material: &material, renderer, session: &session }.run(&output, self.resume)?;
         session.finish()?;
         Ok(())
     }
 
     /// The material as a plane.
-    fn plane(&self, painting: Option<Painting>, output: &Result<PathBuf, String>, session: &SessionArguments) -> Result<(), CliError> {
-        let output = output.as_ref().map_err(|message| Cli::command().error(ErrorKind::ValueValidation, message))?;
+    fn plane(&self, painting: Option<Painting>, output: &Path, session: &SessionArguments) -> Result<(), CliError> {
+        arguments::image(&output.to_string_lossy()).map_err(|message| Cli::command().error(ErrorKind::ValueValidation, message))?;
+        let size = self.size.unwrap_or(SIZE);
+        if size.iter().any(|side| *side > arguments::MAX_TEXTURE_SIDE) {
+            return Err(misplaced(format!(
+                "a plane is drawn in one piece, each side from 1 to {}; --mesh plane has tiles",
+                arguments::MAX_TEXTURE_SIDE
+            )));
+        }
         output::check_file(output)?;
         let mut material = io::material::load(&self.material)?;
         let session = session.open()?;
@@ -116,55 +141,75 @@ impl Render {
         }
         let studio = Studio::new(&session.gpu)?;
         let surface = studio.surface(&material, &session.progress)?;
-        let shot = PlaneView::new(self.view, self.light, self.size);
+        let [view, light] = [(self.view, [40.0, 270.0]), (self.light, [50.0, 135.0])]
+            .map(|(typed, [theta, phi])| typed.unwrap_or_else(|| Direction::from_degrees(theta, phi)));
+        let shot = PlaneView::new(view, light, size);
         let picture = studio.render(&surface, &shot, Relief::default(), &session.progress)?;
         io::picture::write(output, &picture)?;
         session.finish()?;
         Ok(())
     }
+}
 
-    /// The pictures of a job.
-    fn shoot(&self, job: &Job, material: &Material, output: &Path, session: &Session) -> Result<(), CliError> {
-        let (studio, renderer) = (Studio::new(&session.gpu)?, Renderer::new(&session.gpu)?);
+/// What the pictures of a job are made with.
+struct Shooting<'a> {
+    job: &'a Job,
+    material: &'a Material,
+    renderer: Renderer<'a>,
+    session: &'a Session,
+}
+
+impl Shooting<'_> {
+    /// All pictures, or the film of them; with `resume` those that are there are taken as they are.
+    fn run(&self, output: &Path, resume: bool) -> Result<(), CliError> {
+        let Self { job, material, renderer, session } = self;
+        let studio = Studio::new(&session.gpu)?;
         let mut dressed = renderer.dress(&studio, &job.view, material, &session.progress)?;
         let Some(count) = job.turntable else {
-            return picture(&renderer, &dressed, &job.view, job, material, output, session);
+            return self.picture(&dressed, &job.view, output, false);
         };
-        let frames = if is_film(output) { output.with_extension("####.png") } else { output.to_owned() };
+        let film = is_film(output);
+        if film {
+            let folder = pipeline::frames(output);
+            fs::create_dir_all(&folder).map_err(|source| CliError::Write { path: folder, source })?;
+        }
+        let file = |index| if film { pipeline::frame(output, index) } else { pipeline::numbered(output, index, count) };
         for index in 0..count {
-            let file = pipeline::numbered(&frames, index, count);
-            if self.resume && file.exists() {
+            let file = file(index);
+            if resume && file.exists() {
                 continue;
             }
             let view = job.view.turned(f64::from(index) / f64::from(count) * TAU);
             renderer.relight(&mut dressed, &view, &session.progress)?;
-            picture(&renderer, &dressed, &view, job, material, &file, session)?;
+            self.picture(&dressed, &view, &file, film)?;
         }
-        if is_film(output) {
-            pipeline::encode(&frames, count, output)?;
-            for index in 0..count {
-                // What is left of them does no harm.
-                std::fs::remove_file(pipeline::numbered(&frames, index, count)).ok();
-            }
+        if film {
+            pipeline::encode(output, count)?;
+            // What is left of the pictures does no harm; a folder with others stays.
+            (0..count).for_each(|index| drop(fs::remove_file(file(index))));
+            fs::remove_dir(pipeline::frames(output)).ok();
         }
         Ok(())
+    }
+
+    /// One picture, into `file`.
+    fn picture(&self, dressed: &Dressed, view: &MeshView, file: &Path, on_white: bool) -> Result<(), CliError> {
+        let Self { job, material, renderer, session } = self;
+        let picture = renderer.radiance(dressed, &view.camera, &session.progress)?;
+        if !job.channels.is_empty() {
+            let channels = renderer.channels(dressed, &view.camera, material, &job.channels, &session.progress)?;
+            return Ok(io::picture::write_channels(file, &picture, channels)?);
+        }
+        let is_exr = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
+        let picture = match (is_exr, on_white) {
+            (true, _) => picture,
+            (false, false) => picture.map(|&pixel| job.development.develop(pixel)),
+            (false, true) => picture.map(|&pixel| model::on_white(job.development.develop(pixel))),
+        };
+        Ok(io::picture::write(file, &picture)?)
     }
 }
 
 fn is_film(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("mp4"))
-}
-
-/// One picture of a job, into `file`.
-fn picture(
-    renderer: &Renderer<'_>, dressed: &Dressed, view: &MeshView, job: &Job, material: &Material, file: &Path, session: &Session,
-) -> Result<(), CliError> {
-    let picture = renderer.radiance(dressed, &view.camera, &session.progress)?;
-    if !job.channels.is_empty() {
-        let channels = renderer.channels(dressed, &view.camera, material, &job.channels, &session.progress)?;
-        return Ok(io::picture::write_channels(file, &picture, &channels)?);
-    }
-    let is_exr = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
-    let picture = if is_exr { picture } else { picture.map(|&pixel| job.development.develop(pixel)) };
-    Ok(io::picture::write(file, &picture)?)
 }

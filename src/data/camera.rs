@@ -276,7 +276,7 @@ impl Light {
                     return vec![ShadowView { camera, side: None, width: 2.0 * half.tan() }];
                 }
                 // A few texels more than a right angle: averages at an edge reach beyond it.
-                let half = 1.0 + 8.0 / f64::from(side);
+                let half = 1.0 + 16.0 / f64::from(side);
                 let projection = Projection::Perspective { field_of_view: 2.0 * half.atan() };
                 let depths = [1e-3 * radius, distance + radius];
                 [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z]

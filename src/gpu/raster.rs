@@ -137,9 +137,9 @@ impl Target {
         self.width
     }
 
-    /// [first row, rows] of the bands that are drawn one by one.
-    pub(super) fn bands(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
-        let (height, rows) = (self.height, (BAND_PIXELS / self.width).max(1));
+    /// [first row, rows] of the bands that are drawn one by one, of a pass `cost` times as dear as one with four rays a pixel.
+    pub(super) fn bands(&self, cost: u32) -> impl Iterator<Item = [u32; 2]> + use<> {
+        let (height, rows) = (self.height, (BAND_PIXELS / cost.max(1) / self.width).max(1));
         (0..height).step_by(rows as usize).map(move |top| [top, rows.min(height - top)])
     }
 

@@ -81,13 +81,13 @@ impl<'g> Recorder<'g> {
         Ok(())
     }
 
-    /// Records a draw of `vertices` vertices into a cleared target.
+    /// Records a draw of `vertices` vertices into a cleared target; a pixel costs `cost` times what four rays do.
     ///
     /// # Panics
     /// If the bindings do not fit the render pass: the host's bug.
-    pub fn draw(&mut self, raster: &Raster, binds: &[Bind<'_>], vertices: u32, target: &Target) {
+    pub fn draw(&mut self, raster: &Raster, binds: &[Bind<'_>], vertices: u32, cost: u32, target: &Target) {
         let group = raster.bindings.group(self.gpu, binds);
-        for (index, [top, rows]) in target.bands().enumerate() {
+        for (index, [top, rows]) in target.bands(cost).enumerate() {
             let query = self.next_pass(raster.name());
             let load = if index == 0 { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
             let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

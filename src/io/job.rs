@@ -65,7 +65,7 @@ use crate::{
 };
 
 /// The most lights.
-const MAX_LIGHTS: usize = 32;
+pub const MAX_LIGHTS: usize = 32;
 
 /// Pictures of a mesh, and what they are made of.
 #[derive(Debug, Clone)]
@@ -158,7 +158,7 @@ fn job(root: &Table<'_>, folder: &Path) -> Outcome<Job> {
     };
     let channels = match root.get("channels") {
         None => Vec::new(),
-        Some(value) => value.elements("an array of names")?.into_iter().map(channel).collect::<Outcome<_>>()?,
+        Some(value) => distinct(value.elements("an array of names")?.into_iter().map(channel).collect::<Outcome<_>>()?),
     };
     let exposure = root.number("exposure", 0.0)?;
     let tone_map = choice(root, "tone_map", &[("neutral", ToneMap::Neutral), ("clip", ToneMap::Clip)])?;
@@ -215,6 +215,9 @@ fn surroundings(table: &Table<'_>, folder: &Path) -> Outcome<(Option<Surrounding
 fn camera(table: &Table<'_>, mesh: &Mesh, size: [u32; 2], turning: bool) -> Outcome<Camera> {
     table.check(&["azimuth", "elevation", "eye", "target", "angle_of_view"])?;
     let angle = within(table, "angle_of_view", table.number("angle_of_view", MeshView::ANGLE_OF_VIEW)?, [0.0, 170.0])?;
+    if angle > 0.0 {
+        within(table, "angle_of_view", angle, [LEAST_ANGLE, 170.0])?;
+    }
     let Some(eye) = table.get("eye") else {
         if let Some(target) = table.get("target") {
             return Err(target.fault(RecipeFault::Missing { key: "eye", of: table.what().to_owned(), example: "eye = [0, 1, 4]" }));
@@ -228,6 +231,10 @@ fn camera(table: &Table<'_>, mesh: &Mesh, size: [u32; 2], turning: bool) -> Outc
     let place = vector(eye)?;
     let target = table.get("target").map_or(Ok(center), vector)?;
     let distance = place.distance(target);
+    if distance > FARTHEST * radius {
+        let expected = format!("at most {FARTHEST} times the mesh's radius from the target");
+        return Err(eye.fault(RecipeFault::Bounds { key: "eye".to_owned(), found: place.to_string(), expected }));
+    }
     if distance < 1e-6 * radius {
         return Err(eye.fault(RecipeFault::Bounds {
             key: "eye".to_owned(),
@@ -239,11 +246,28 @@ fn camera(table: &Table<'_>, mesh: &Mesh, size: [u32; 2], turning: bool) -> Outc
     let farthest = place.distance(center) + radius;
     let nearest = (place.distance(center) - radius).max(1e-4 * farthest);
     let forward = (target - place) / distance;
-    let up = if forward.y.abs() > 1.0 - 1e-9 { DVec3::NEG_Z * forward.y.signum() } else { DVec3::Y };
+    let up = if forward.y.abs() > 1.0 - 1e-9 { DVec3::Z * forward.y.signum() } else { DVec3::Y };
     // By parallel rays the plane through the target is as high as through a lens of 30 degrees.
     let height = 2.0 * distance * (0.5 * MeshView::ANGLE_OF_VIEW.to_radians()).tan();
     Ok(Camera { eye: place, target, up, projection: Projection::by_angle(angle, height), depths: [nearest, farthest], size })
 }
+
+/// The same channels, each once.
+#[must_use]
+pub fn distinct(channels: Vec<Channel>) -> Vec<Channel> {
+    let mut once = Vec::new();
+    for channel in channels {
+        if !once.contains(&channel) {
+            once.push(channel);
+        }
+    }
+    once
+}
+
+/// Radii of the mesh that an eye may be away: beyond it depths in single precision run together.
+const FARTHEST: f64 = 1e4;
+/// Degrees of the narrowest angle of view that is none of parallel rays, for the same reason.
+pub const LEAST_ANGLE: f64 = 0.1;
 
 fn light(value: Value<'_>) -> Outcome<Light> {
     let table = value.table("a light")?;
@@ -286,8 +310,8 @@ fn size(value: Value<'_>) -> Outcome<[u32; 2]> {
 
 /// Columns or rows of a picture at most.
 pub const MAX_SIDE: u32 = 32_768;
-/// Pixels of a picture at most: 4 GiB as the host holds it.
-pub const MAX_PIXELS: u64 = 1 << 28;
+/// Pixels of a picture at most: 2 GiB as the host holds it, and as much again while a file is made of it.
+pub const MAX_PIXELS: u64 = 1 << 27;
 
 fn tiling(value: Value<'_>) -> Outcome<[f64; 2]> {
     let tiling = if value.is_array() { numbers(value, "across and up")? } else { [value.number()?; 2] };

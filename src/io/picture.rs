@@ -45,13 +45,13 @@ pub fn write(path: &Path, picture: &Map<[f32; 4]>) -> Result<(), IoError> {
 ///
 /// # Panics
 /// If a channel is not as large as the picture: the caller's bug.
-pub fn write_channels(path: &Path, picture: &Map<[f32; 4]>, channels: &[(&str, Vec<f32>)]) -> Result<(), IoError> {
+pub fn write_channels(path: &Path, picture: &Map<[f32; 4]>, channels: Vec<(&str, Vec<f32>)>) -> Result<(), IoError> {
     let Format::Exr = format(path)? else {
         return Err(IoError::Extension { path: path.to_owned(), found: ".png, which has no further channels".to_owned() });
     };
     let size = (picture.width(), picture.height());
     let color = |index: usize| picture.values().iter().map(|pixel| pixel[index]).collect::<Vec<_>>();
-    let all = [("R", color(0)), ("G", color(1)), ("B", color(2)), ("A", color(3))].into_iter().chain(channels.iter().cloned());
+    let all = [("R", color(0)), ("G", color(1)), ("B", color(2)), ("A", color(3))].into_iter().chain(channels);
     let list = all.map(|(name, values)| {
         assert_eq!(values.len(), picture.values().len(), "pixels of channel \"{name}\"");
         AnyChannel::new(name, FlatSamples::F32(values))

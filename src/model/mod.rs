@@ -44,4 +44,4 @@ pub use relief::Relief;
 pub use settings::{FitSettings, SettingsError, SpecularScale, StereoMethod, SurfaceMode};
 pub use synth::{HeightField, Synth, SynthError, SynthPlace, SynthReflectance, SynthTexel};
 pub use texel_samples::TexelSamples;
-pub use tone::{Development, ToneMap};
+pub use tone::{Development, ToneMap, on_white};

@@ -20,9 +20,6 @@ pub struct Development {
 }
 
 impl Development {
-    /// Nothing changed but what exceeds 1.
-    pub const EXACT: Self = Self { exposure: 0.0, tone_map: ToneMap::Clip };
-
     /// A pixel as the screen shows it, both linear RGBA, premultiplied.
     #[must_use]
     pub fn develop(&self, pixel: [f32; 4]) -> [f32; 4] {
@@ -38,6 +35,13 @@ impl Development {
         #[expect(clippy::cast_possible_truncation, reason = "to the nearest f32")]
         [r * alpha, g * alpha, b * alpha, alpha].map(|value| value as f32)
     }
+}
+
+/// A pixel, linear RGBA and premultiplied, in front of white.
+#[must_use]
+pub fn on_white([r, g, b, alpha]: [f32; 4]) -> [f32; 4] {
+    let [r, g, b] = [r, g, b].map(|value| value + 1.0 - alpha);
+    [r, g, b, 1.0]
 }
 
 /// Linear sRGB of 0 or more, held below 1 (Khronos Group 2024, PBR Neutral Tone Mapper): what glass adds at normal incidence, 4 %, is taken

@@ -53,9 +53,24 @@ const RELIEF: f64 = 0.1;
 /// (θ, φ) in degrees of the view and of the light, which comes in low from the other side.
 const VIEW: (f64, f64) = (30.0, 270.0);
 const LIGHT: (f64, f64) = (55.0, 110.0);
-const SIZE: [u32; 2] = [384, 344];
 /// Texels that are shown along each edge at least: smaller samples lie side by side.
 const LEAST_TEXELS: usize = 64;
+
+/// How large and how fine the pictures are.
+#[derive(Debug, Clone, Copy)]
+pub struct FigureSettings {
+    /// Columns, and rows of a model's pictures; a plane's have fewer.
+    pub side: u32,
+    /// Rays a pixel of models.
+    pub rays: u32,
+}
+
+impl Default for FigureSettings {
+    /// 384 columns, four rays.
+    fn default() -> Self {
+        Self { side: 384, rays: 4 }
+    }
+}
 
 /// A material to make figures of.
 #[derive(Debug)]
@@ -84,10 +99,16 @@ impl Pictured {
 /// # Errors
 /// [`PipelineError::Painted`] if a material is painted already, others if a stage fails or a file cannot be written.
 pub fn figures(
-    gpu: &Gpu, materials: &[Pictured], models: Vec<(String, Mesh)>, folder: &Path, progress: &Progress,
+    gpu: &Gpu, materials: &[Pictured], models: Vec<(String, Mesh)>, settings: FigureSettings, folder: &Path, progress: &Progress,
 ) -> Result<(), PipelineError> {
     if materials.iter().any(|pictured| pictured.material.painted.is_some()) {
         return Err(PipelineError::Painted);
+    }
+    for Pictured { material, source, .. } in materials {
+        if let Some(btf) = source.as_ref().map(|source| source.btf()).filter(|btf| btf.size() != material.size()) {
+            let (source_name, source_size) = (btf.name().to_owned(), btf.size());
+            return Err(PipelineError::SizesDiffer { source_name, source_size, material_size: material.size() });
+        }
     }
     let (studio, painter, renderer) = (Studio::new(gpu)?, Painter::new(gpu)?, Renderer::new(gpu)?);
     let models = OnMeshes::models(models);
@@ -108,7 +129,7 @@ pub fn figures(
                 report.figure(&Figure { stem: format!("{stem}_{}", number.replace('.', "_")), title, ..figure })?;
             }
         }
-        let job = Job { name, stem, material, studio: &studio, painter: &painter, progress };
+        let job = Job { settings, name, stem, material, studio: &studio, painter: &painter, progress };
         for (number, title, paints) in WHOLE {
             report.figure(&job.whole(number, title, &paints)?)?;
         }
@@ -124,6 +145,7 @@ pub fn figures(
 
 /// What the figures of one material are made from.
 pub(super) struct Job<'a> {
+    pub settings: FigureSettings,
     pub name: &'a str,
     /// What the names of its files begin with.
     stem: String,
@@ -195,7 +217,12 @@ impl Job<'_> {
         let material = self.painter.paint(self.material, &recipe, method, self.progress)?;
         let surface = self.studio.surface(&material, self.progress)?;
         let [view, light] = [VIEW, LIGHT].map(|(theta, phi)| Direction::from_degrees(theta, phi));
-        self.studio.render(&surface, &PlaneView::new(view, light, SIZE), Relief::default(), self.progress)
+        self.studio.render(
+            &surface,
+            &PlaneView::new(view, light, [self.settings.side, self.settings.side * 9 / 10]),
+            Relief::default(),
+            self.progress,
+        )
     }
 }
 

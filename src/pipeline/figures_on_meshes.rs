@@ -10,10 +10,6 @@ use crate::{
     model::{Development, Layer, Paint, PaintMethod, Pattern, TexelSamples, pigments},
 };
 
-/// A picture's columns and rows.
-const SIZE: [u32; 2] = [384, 384];
-/// Rays a pixel.
-const RAYS: u32 = 4;
 /// Texels along each edge of the painted plane, at least: smaller samples lie side by side.
 const LEAST_TEXELS: usize = 256;
 /// Azimuth and elevation, degrees, of the cameras of two columns of figs. 4.7 and 4.8.
@@ -189,13 +185,13 @@ impl OnMeshes<'_> {
     fn picture(
         &self, layers: Vec<Layer>, mesh: &Mesh, bearing: [f64; 2], unpainted: Option<TexelSamples>,
     ) -> Result<Map<[f32; 4]>, PipelineError> {
-        let Job { material, studio, painter, progress, .. } = self.job;
+        let Job { settings, material, studio, painter, progress, .. } = self.job;
         let repeat = material.size().map(|texels| LEAST_TEXELS.div_ceil(texels));
         let painted = painter.paint(material, &Recipe { repeat, layers, images: Vec::new() }, PaintMethod::KubelkaMunk, progress)?;
-        let camera = Camera::showing(mesh, bearing, MeshView::ANGLE_OF_VIEW, SIZE, false);
+        let camera = Camera::showing(mesh, bearing, MeshView::ANGLE_OF_VIEW, [settings.side; 2], false);
         let view = MeshView {
             unpainted,
-            sampling: Sampling { pictures: RAYS, ..Sampling::default() },
+            sampling: Sampling { pictures: settings.rays, ..Sampling::default() },
             ..MeshView::new(mesh.clone(), camera, Light::pair())
         };
         let dressed = self.renderer.dress(studio, &view, &painted, progress)?;

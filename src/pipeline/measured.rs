@@ -26,7 +26,10 @@ pub(super) struct Measured<'a> {
 impl Measured<'_> {
     /// Top view, normals and height (thesis fig. 3.2).
     pub(super) fn recovered(&self) -> Result<Figure, PipelineError> {
-        let (view, light) = (nearest(self.source.btf().views(), VIEWS[0]), nearest(self.source.btf().lights(), (0.0, 0.0)));
+        let (view, light) = {
+            let view = nearest(self.source.btf().views(), VIEWS[0]);
+            (view, self.nearest_light(view, (0.0, 0.0)))
+        };
         let (lowest, highest) = range(&self.material.height);
         let cells = vec![
             Cell { picture: self.original(view, light)?, note: String::new() },
@@ -68,20 +71,25 @@ impl Measured<'_> {
             .map(|label| Row { label: label.to_owned(), cells: Vec::new() });
         let mut columns = Vec::new();
         let subject = |appearance| self.studio.subject(self.material, appearance, self.progress);
-        let (reflectance, lpca) = (subject(Appearance::svbrdf())?, subject(Appearance::Lpca { texel_samples: TexelSamples::One })?);
+        let reflectance = subject(Appearance::svbrdf())?;
+        let has_lpca = self.material.lpca.is_some();
+        let lpca = has_lpca.then(|| subject(Appearance::Lpca { texel_samples: TexelSamples::One })).transpose()?;
         for theta in LIGHTS {
-            let light = nearest(btf.lights(), (theta, 0.0));
+            let light = self.nearest_light(view, (theta, 0.0));
             let original = self.original(view, light)?;
             let picture = |subject| self.studio.picture(subject, btf.views()[view], btf.lights()[light], self.progress);
-            let (found, compressed) = (picture(&reflectance)?, picture(&lpca)?);
+            let found = picture(&reflectance)?;
             let note = |picture: &_| format!("relative RMS {:.3}", relative_rms(&original, picture));
-            let cells = [
+            let mut cells = vec![
                 Cell { note: String::new(), picture: original.clone() },
                 Cell { note: String::new(), picture: difference(&original, &found) },
                 Cell { note: String::new(), picture: difference(&found, &original) },
                 Cell { note: note(&found), picture: found },
-                Cell { note: note(&compressed), picture: compressed },
             ];
+            if let Some(lpca) = &lpca {
+                let compressed = picture(lpca)?;
+                cells.push(Cell { note: note(&compressed), picture: compressed });
+            }
             rows.iter_mut().zip(cells).for_each(|(row, cell)| row.cells.push(cell));
             columns.push(format!("light {}", btf.lights()[light]));
         }
@@ -96,8 +104,16 @@ impl Measured<'_> {
                 self.material.lpca.as_ref().map_or(0.0, |lpca| lpca.bytes() as f64 / 1e6)
             ),
             columns,
-            rows: rows.into(),
+            rows: rows.into_iter().filter(|row| !row.cells.is_empty()).collect(),
         })
+    }
+
+    /// Of the lights that the view was photographed under, the one nearest (θ, φ) in degrees.
+    fn nearest_light(&self, view: usize, light: (f64, f64)) -> usize {
+        let btf = self.source.btf();
+        let of_view: Vec<usize> = btf.pairs().iter().filter(|pair| pair.view == view).map(|pair| pair.light).collect();
+        let lights: Vec<Direction> = of_view.iter().map(|&light| btf.lights()[light]).collect();
+        of_view.get(nearest(&lights, light)).copied().unwrap_or(0)
     }
 
     /// The sample of a view and a light, by their indices, in linear light.
@@ -105,7 +121,7 @@ impl Measured<'_> {
         let btf = self.source.btf();
         let [width, height] = btf.size();
         let Some(sample) = btf.pairs().iter().position(|pair| (pair.view, pair.light) == (view, light)) else {
-            // The sample inside the program has every pair.
+            // A view without a single light.
             return Ok(Map::from_fn(width, height, |_, _| [0.0; 4]));
         };
         let _stage = self.progress.stage("image_decode", btf.texels(), 1);

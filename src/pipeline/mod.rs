@@ -29,7 +29,7 @@ pub use compare::{
 pub use demo::{REPORT, demo};
 pub use error::PipelineError;
 pub use export::export_tree;
-pub use figures::{FIGURES, Pictured, figures};
+pub use figures::{FIGURES, FigureSettings, Pictured, figures};
 pub use fit::{check_fit, fit, fit_job, fit_within};
 pub use import::{Imported, import};
 pub use lpca::lpca;
@@ -40,4 +40,4 @@ pub use renderer::{Dressed, Renderer};
 pub use studio::{Studio, Subject};
 pub use swatches::swatches;
 pub use synth::Synthetic;
-pub use turntable::{check_ffmpeg, encode, numbered};
+pub use turntable::{check_ffmpeg, encode, frame, frames, numbered};

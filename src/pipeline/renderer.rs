@@ -38,9 +38,9 @@ pub struct Dressed {
 
 impl Dressed {
     fn shown(&self) -> Shown<'_> {
-        let Self { mesh, surface, lighting, surroundings, relief, silhouette, .. } = self;
+        let Self { mesh, surface, lighting, surroundings, relief, silhouette, sampling, .. } = self;
         let compressed = self.compressed.as_ref().map(|(btf, texel_samples)| (btf, *texel_samples));
-        Shown { mesh, surface, compressed, relief: *relief, silhouette: *silhouette, lighting, surroundings }
+        Shown { mesh, surface, compressed, relief: *relief, silhouette: *silhouette, lighting, surroundings, sampling: *sampling }
     }
 }
 
@@ -200,7 +200,7 @@ impl<'g> Renderer<'g> {
                 run(self.gpu, progress, "mesh", [pixels, 1], |recorder| {
                     let [right, down] = within_pixel(sample, sampling.pictures);
                     let window = Window { corner: [f64::from(left) + right, f64::from(top) + down], size: size.map(f64::from) };
-                    self.pass.draw(recorder, dressed.shown(), camera, window, output, sampling, &target)?;
+                    self.pass.draw(recorder, Shown { sampling, ..dressed.shown() }, camera, window, output, &target)?;
                     let drawn = target.record_copy(recorder)?;
                     self.average.record(recorder, &drawn, &mean, [size[0] as usize, target.row_pixels()], [sample, sampling.pictures])
                 })?;

@@ -32,29 +32,52 @@ pub fn check_ffmpeg() -> Result<(), PipelineError> {
     }
 }
 
-/// Makes the film `film` of the PNG files that are called `frames`, as [`numbered`] calls `count` of them. It appears whole or not at all.
+/// Picture `index` of the film `film`, in a folder beside it.
+#[must_use]
+pub fn frame(film: &Path, index: u32) -> PathBuf {
+    frames(film).join(format!("{index:06}.png"))
+}
+
+/// The folder of a film's pictures.
+#[must_use]
+pub fn frames(film: &Path) -> PathBuf {
+    film.with_extension("frames")
+}
+
+/// Makes `film` of its first `count` pictures, as [`frame`] calls them. It appears whole or not at all.
 ///
 /// # Errors
 /// [`PipelineError::Ffmpeg`] with what ffmpeg says.
-pub fn encode(frames: &Path, count: u32, film: &Path) -> Result<(), PipelineError> {
-    let name = frames.file_name().unwrap_or_default().to_string_lossy();
-    let marks = name.chars().filter(|mark| *mark == '#').count().max(count.saturating_sub(1).to_string().len());
-    let start = name.find('#').unwrap_or_default();
-    let end = name.rfind('#').map_or(start, |last| last + 1);
-    // A % of the name itself would be taken for a mark.
-    let pattern = format!("{}%0{marks}d{}", name[..start].replace('%', "%%"), name[end..].replace('%', "%%"));
-    let input = frames.with_file_name(pattern);
-    let unfinished = film.with_extension("part.mp4");
-    let mut command = Command::new("ffmpeg");
-    command.args(["-hide_banner", "-loglevel", "error", "-y", "-framerate", &RATE.to_string(), "-i"]).arg(&input);
-    // Players want an even number of columns and rows, and this form of colour. Light that is not there is white.
-    let filter = "[0]split[front][behind];[behind]drawbox=c=white:t=fill:replace=1[white];[white][front]overlay=format=auto,\
-                  pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p";
-    command.args(["-filter_complex", filter, "-c:v", "libx264", "-crf", "16", "-movflags", "+faststart"]).arg(&unfinished);
+pub fn encode(film: &Path, count: u32) -> Result<(), PipelineError> {
     let failed = |message: String| PipelineError::Ffmpeg { path: film.to_owned(), message };
-    let output = command.stdin(Stdio::null()).output().map_err(|error| failed(error.to_string()))?;
+    let (rate, count) = (RATE.to_string(), count.to_string());
+    // Players want an even number of columns and rows, and this form of colour. Names are those of this program alone: ffmpeg reads signs into
+    // others.
+    let arguments = [
+        "-hide_banner",
+        "-loglevel",
+        "error",
+        "-y",
+        "-framerate",
+        &rate,
+        "-i",
+        "%06d.png",
+        "-frames:v",
+        &count,
+        "-vf",
+        "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p",
+        "-c:v",
+        "libx264",
+        "-crf",
+        "16",
+        "-movflags",
+        "+faststart",
+        "film.mp4",
+    ];
+    let output = Command::new("ffmpeg").args(arguments).current_dir(frames(film)).stdin(Stdio::null()).output();
+    let output = output.map_err(|error| failed(error.to_string()))?;
     if !output.status.success() {
-        return Err(failed(String::from_utf8_lossy(&output.stderr).trim().to_owned()));
+        return Err(failed(format!("{}: {}", output.status, String::from_utf8_lossy(&output.stderr).trim())));
     }
-    std::fs::rename(&unfinished, film).map_err(|error| failed(error.to_string()))
+    std::fs::rename(frames(film).join("film.mp4"), film).map_err(|error| failed(error.to_string()))
 }

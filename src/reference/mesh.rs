@@ -30,7 +30,7 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
     let vector = |values: [f32; 3]| DVec3::from_array(values.map(f64::from));
     let place = |vertex: usize| {
         let [u, v] = mesh.texture_coordinates()[vertex].map(f64::from);
-        [u * tiling[0] * size[0] - 0.5, -v * tiling[1] * size[1] - 0.5]
+        [u * tiling[0] * size[0] - 0.5, (1.0 - v) * tiling[1] * size[1] - 0.5]
     };
     let source = view
         .surroundings

@@ -65,6 +65,8 @@ pub struct Shown<'a> {
     pub lighting: &'a Lighting,
     /// What is around it.
     pub surroundings: &'a SurroundingsBuffers,
+    /// How densely the picture samples the material.
+    pub sampling: Sampling,
 }
 
 /// A mesh in adapter memory.
@@ -143,11 +145,10 @@ impl MeshPass {
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
     pub fn draw(
-        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, output: Output, sampling: Sampling,
-        target: &Target,
+        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, output: Output, target: &Target,
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
-        let Shown { mesh, lighting, surroundings, .. } = shown;
+        let Shown { mesh, lighting, surroundings, sampling, .. } = shown;
         let scene: Buffer<Scene> = shown.surface.unlit_scene(gpu, shown.relief)?;
         #[expect(clippy::cast_precision_loss, reason = "columns and rows")]
         let texels = shown.surface.field.size.map(|side| side as f32);
@@ -166,7 +167,6 @@ impl MeshPass {
             clip_w,
             environment: surroundings.params(),
             sheet: [0, 1].map(|axis| mesh.tiling[axis] * texels[axis]),
-            ..Default::default()
         };
         let camera = gpu.uniform("camera", &params)?;
         let mut binds = shown.surface.painted_binds(&scene);
@@ -174,15 +174,17 @@ impl MeshPass {
         binds.extend(lighting.binds());
         binds.extend(surroundings.binds());
         let vertices = count(mesh.corners.len());
+        // The most rays of a pixel, each under all lights.
+        let cost = (params.rays * params.rays * params.lights.max(1)).div_ceil(4);
         match shown.compressed {
             None => {
                 binds.extend(shown.surface.bare_binds());
-                recorder.draw(&self.svbrdf, &binds, vertices, target);
+                recorder.draw(&self.svbrdf, &binds, vertices, cost, target);
             }
             Some((btf, texel_samples)) => {
                 let params = btf.params(gpu, texel_samples)?;
                 binds.extend::<Vec<Bind<'_>>>(btf.binds(&params));
-                recorder.draw(&self.lpca, &binds, vertices, target);
+                recorder.draw(&self.lpca, &binds, vertices, cost, target);
             }
         }
         Ok(())

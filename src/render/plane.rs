@@ -61,7 +61,7 @@ impl Plane {
         let mut binds = surface.binds(&scene);
         binds.push(bind("camera", &camera));
         let vertices = if shot.view.vector().z < MIN_COSINE { 0 } else { 6 };
-        recorder.draw(&self.raster, &binds, vertices, &target);
+        recorder.draw(&self.raster, &binds, vertices, 1, &target);
         Ok(target)
     }
 }

@@ -36,7 +36,7 @@ fn a_comparison_has_its_figures_and_pictures(gpu: &Gpu) {
     let folder = fitted(gpu);
     let folder = folder.path();
     let said = succeed(gpu, folder, &["compare", "btf.zarr", "material.zarr", "-o", "compared", "--texel", "20,9"]);
-    for part in ["relative RMS 0.", " dB", "over 40 pairs", "bias by view elevation", "θ   50", "wrote compared/compare.html"] {
+    for part in ["relative RMS 0.", " dB", "over 40 pairs", "bias and PSNR by view elevation", "θ   50", "wrote compared/compare.html"] {
         assert!(said.contains(part), "{part} in {said}");
     }
     let figures = read_json(&folder.join("compared/compare.json"));

@@ -1,6 +1,6 @@
 //! The command line, run as a user runs it.
 
-crate::suites! { compare, errors, export, help, info, killed, main_job, paints, progress, python, reading, synth, usage }
+crate::suites! { compare, errors, export, help, info, killed, main_job, paints, progress, python, reading, render, synth, usage }
 
 use std::{
     path::Path,

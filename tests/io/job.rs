@@ -72,7 +72,7 @@ const WRONG: &[(&str, &str)] = &[
     ("", "j.toml:1:1: a job has no \"material\"; add it, such as material = \"cloth.zarr\""),
     ("material = 3", "j.toml:1:12: \"material\" must be a string, found the number 3"),
     ("material = \"m\"\nsiez = [1, 1]", "j.toml:2:1: unknown key \"siez\" in a job; its keys are material, recipe,"),
-    ("material = \"m\"\nsize = [0, 10]", "j.toml:2:8: \"size\" must be from 1 to 32768 each and 268435456 in all, found [0, 10]"),
+    ("material = \"m\"\nsize = [0, 10]", "j.toml:2:8: \"size\" must be from 1 to 32768 each and 134217728 in all, found [0, 10]"),
     ("material = \"m\"\nsize = [32768, 32768]", "j.toml:2:8: \"size\" must be from 1 to 32768 each"),
     ("material = \"m\"\nchannels = [\"dept\"]", "j.toml:2:13: \"channels\" has no \"dept\"; there are depth, normal, painted, thickness, texel"),
     ("material = \"m\"\nmesh = { shape = \"cube\" }", "j.toml:2:18: \"shape\" has no \"cube\"; there are plane, sphere, torus-knot, cloth"),

@@ -49,4 +49,5 @@ crate::suites! {
     surface_modes,
     synth,
     tiles,
+    tone,
 }

@@ -3,7 +3,7 @@ use overpaint::{
     gpu::Gpu,
     io::material,
     model::{HeightField, Layer, Paint, PaintMethod, Pattern, Relief, Synth, SynthReflectance, pigments},
-    pipeline::{FIGURES, Pictured, Painter, Progress, Studio, Synthetic, figures, swatches},
+    pipeline::{FIGURES, FigureSettings, Pictured, Painter, Progress, Studio, Synthetic, figures, swatches},
 };
 
 use crate::support::{Worst, hold};
@@ -173,18 +173,20 @@ fn swatches_are_films_over_their_grounds(gpu: &Gpu) {
     }
 }
 
+const SMALL: FigureSettings = FigureSettings { side: 64, rays: 1 };
+
 fn figures_are_made_of_every_material(gpu: &Gpu) {
     let pictured = |name: &str, material| Pictured { name: name.to_owned(), material, source: None };
     let folder = tempfile::tempdir().expect("is made");
     let coated = painted(gpu, &bumps(gpu), &of(&[layer("oil/viridian", 1.0, 0.0, SPLASH)]), PaintMethod::KubelkaMunk);
-    let refused = figures(gpu, &[pictured("coated", coated)], Vec::new(), folder.path(), &Progress::new(gpu.adapter())).expect_err("is painted");
+    let refused = figures(gpu, &[pictured("coated", coated)], Vec::new(), SMALL, folder.path(), &Progress::new(gpu.adapter())).expect_err("is painted");
     assert!(refused.to_string().starts_with("the material is painted"), "{refused}");
 
     let recipe = Synth { height_field: HeightField::Flat, relief: 0.0, reflectance: SynthReflectance::Matte, seed: 4 };
     let zenith = vec![Direction::from_degrees(0.0, 0.0)];
     let made = Synthetic::new(gpu, "flat", recipe, [64, 64], zenith.clone(), zenith, &Progress::new(gpu.adapter()));
     let flat = made.expect("is made").truth();
-    figures(gpu, &[pictured("flat", flat)], Vec::new(), folder.path(), &Progress::new(gpu.adapter())).expect("are made");
+    figures(gpu, &[pictured("flat", flat)], Vec::new(), SMALL, folder.path(), &Progress::new(gpu.adapter())).expect("are made");
     let html = std::fs::read_to_string(folder.path().join(FIGURES)).expect("is there");
     let named: Vec<_> = html.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
     // Three paints bare and at two thicknesses, twice; two methods at four thicknesses, twice. On models: bare and painted from two sides,
