@@ -73,7 +73,7 @@ impl Figures {
             &session.gpu,
             &materials,
             models,
-            FigureSettings { side: self.side, rays: self.spp },
+            FigureSettings { side: self.side, rays: self.spp, ..FigureSettings::default() },
             &self.output,
             &session.progress,
         )?;

@@ -56,6 +56,10 @@ impl Projection {
 }
 
 impl Camera {
+    /// Radii of a mesh's ball between which depths lie: its relief may stand out of it, and nothing touches the near plane. Mesa 22.3's software
+    /// rasteriser writes past its memory where triangles are cut there, if its vectors have 128 bits.
+    pub const ROOM: f64 = 1.05;
+
     /// A camera that sees all of `mesh` from `bearing`, azimuth and elevation in degrees as of [`Self::around`], `angle` degrees between the
     /// upper and the lower edge, 0 for parallel rays: as near as it can be with a twentieth of the picture left free around it. With `turning`
     /// the mesh may turn about the vertical axis through its middle.
@@ -81,7 +85,7 @@ impl Camera {
             Projection::Perspective { field_of_view } => {
                 let half = (0.5 * field_of_view).tan();
                 let distance = places.map(|place| place.dot(toward) + reach(place) / half).fold(0.0, f64::max).max(1e-3 * radius);
-                let depths = [(distance - radius).max(1e-3 * distance), distance + radius];
+                let depths = [(distance - Self::ROOM * radius).max(1e-3 * distance), distance + Self::ROOM * radius];
                 Self { eye: center + distance * toward, depths, ..camera }
             }
             Projection::Orthographic { .. } => {
@@ -119,7 +123,7 @@ impl Camera {
             target,
             up,
             projection,
-            depths: [(distance - radius).max(1e-3 * distance), distance + radius],
+            depths: [(distance - Self::ROOM * radius).max(1e-3 * distance), distance + Self::ROOM * radius],
             size,
         }
     }
@@ -254,7 +258,7 @@ impl Light {
         match *self {
             Self::Directional { toward, .. } => {
                 let projection = Projection::Orthographic { height: 2.0 * radius };
-                let depths = [radius, 3.0 * radius];
+                let depths = [(2.0 - Camera::ROOM) * radius, (2.0 + Camera::ROOM) * radius];
                 let camera = Camera {
                     eye: center + 2.0 * radius * toward,
                     target: center,
@@ -270,7 +274,7 @@ impl Light {
                 if distance > 1.2 * radius {
                     let half = (radius / distance).asin();
                     let projection = Projection::Perspective { field_of_view: 2.0 * half };
-                    let depths = [distance - radius, distance + radius];
+                    let depths = [distance - Camera::ROOM * radius, distance + Camera::ROOM * radius];
                     let up = (center - place).any_orthogonal_vector();
                     let camera = Camera { eye: place, target: center, up, projection, depths, size };
                     return vec![ShadowView { camera, side: None, width: 2.0 * half.tan() }];
@@ -278,7 +282,7 @@ impl Light {
                 // A few texels more than a right angle: averages at an edge reach beyond it.
                 let half = 1.0 + 16.0 / f64::from(side);
                 let projection = Projection::Perspective { field_of_view: 2.0 * half.atan() };
-                let depths = [1e-3 * radius, distance + radius];
+                let depths = [1e-3 * radius, distance + Camera::ROOM * radius];
                 [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z]
                     .into_iter()
                     .zip(0..)

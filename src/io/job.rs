@@ -242,10 +242,11 @@ fn camera(table: &Table<'_>, mesh: &Mesh, size: [u32; 2], turning: bool) -> Outc
             expected: "another place".to_owned(),
         }));
     }
-    // What of the mesh is farthest, and as near as the depth's 24 bits of mantissa serve.
-    let farthest = place.distance(center) + radius;
-    let nearest = (place.distance(center) - radius).max(1e-4 * farthest);
     let forward = (target - place) / distance;
+    // The ball's depths, as near as single precision serves.
+    let along = (center - place).dot(forward);
+    let farthest = (along + Camera::ROOM * radius).max(1e-3 * radius);
+    let nearest = (along - Camera::ROOM * radius).max(1e-4 * farthest);
     let up = if forward.y.abs() > 1.0 - 1e-9 { DVec3::Z * forward.y.signum() } else { DVec3::Y };
     // By parallel rays the plane through the target is as high as through a lens of 30 degrees.
     let height = 2.0 * distance * (0.5 * MeshView::ANGLE_OF_VIEW.to_radians()).tan();

@@ -63,12 +63,14 @@ pub struct FigureSettings {
     pub side: u32,
     /// Rays a pixel of models.
     pub rays: u32,
+    /// Texels along each edge of a model's painted plane, at least: smaller samples lie side by side.
+    pub texels: usize,
 }
 
 impl Default for FigureSettings {
-    /// 384 columns, four rays.
+    /// 384 columns, four rays, 256 texels.
     fn default() -> Self {
-        Self { side: 384, rays: 4 }
+        Self { side: 384, rays: 4, texels: 256 }
     }
 }
 

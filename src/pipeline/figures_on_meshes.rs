@@ -10,8 +10,6 @@ use crate::{
     model::{Development, Layer, Paint, PaintMethod, Pattern, TexelSamples, pigments},
 };
 
-/// Texels along each edge of the painted plane, at least: smaller samples lie side by side.
-const LEAST_TEXELS: usize = 256;
 /// Azimuth and elevation, degrees, of the cameras of two columns of figs. 4.7 and 4.8.
 const BEARINGS: [[f64; 2]; 2] = [[30.0, 35.0], [-50.0, 10.0]];
 /// Height of paint of thickness 1, texel widths.
@@ -186,7 +184,7 @@ impl OnMeshes<'_> {
         &self, layers: Vec<Layer>, mesh: &Mesh, bearing: [f64; 2], unpainted: Option<TexelSamples>,
     ) -> Result<Map<[f32; 4]>, PipelineError> {
         let Job { settings, material, studio, painter, progress, .. } = self.job;
-        let repeat = material.size().map(|texels| LEAST_TEXELS.div_ceil(texels));
+        let repeat = material.size().map(|texels| settings.texels.div_ceil(texels));
         let painted = painter.paint(material, &Recipe { repeat, layers, images: Vec::new() }, PaintMethod::KubelkaMunk, progress)?;
         let camera = Camera::showing(mesh, bearing, MeshView::ANGLE_OF_VIEW, [settings.side; 2], false);
         let view = MeshView {

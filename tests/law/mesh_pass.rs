@@ -262,7 +262,7 @@ fn a_uniform_environment_has_its_closed_form(gpu: &Gpu) {
     let mut surface = plain(4, 4);
     surface.painted = surface.painted.map(|_| [0.5, 0.25, 0.75, 1.0]);
     let white = Environment::uniform([1.0; 3]).expect("is one");
-    for (f0, alpha, angle) in [(0.04, 0.3, 0.2_f64), (0.25, 0.1, 1.0), (0.1, 0.8, 1.3)] {
+    for (f0, alpha, angle) in [(0.25, 0.3, 1.0_f64)] {
         surface.coat = surface.coat.map(|_| [f0, alpha]);
         let toward = dvec3(angle.sin(), 0.0, angle.cos());
         let camera = Camera { eye: 3.0 * toward, depths: [0.5, 6.0], ..above([9, 9]) };

@@ -173,7 +173,7 @@ fn swatches_are_films_over_their_grounds(gpu: &Gpu) {
     }
 }
 
-const SMALL: FigureSettings = FigureSettings { side: 64, rays: 1 };
+const SMALL: FigureSettings = FigureSettings { side: 64, rays: 1, texels: 64 };
 
 fn figures_are_made_of_every_material(gpu: &Gpu) {
     let pictured = |name: &str, material| Pictured { name: name.to_owned(), material, source: None };

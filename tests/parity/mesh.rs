@@ -44,7 +44,7 @@ fn agrees_with_its_twin(gpu: &Gpu) {
     let cases = [
         (Shape::Plane, [1.0, 1.5], [0.4, 0.7], perspective, [90, 64]),
         (Shape::Plane, [2.0, 2.0], [2.6, -0.4], Projection::Orthographic { height: 1.0 }, [64, 64]),
-        (Shape::Sphere, [2.0, 2.0], [0.3, 0.2], perspective, [65, 80]),
+        (Shape::Sphere, [2.0, 2.0], [0.3, 0.2], perspective, [33, 40]),
     ];
     for (shape, tiling, direction, projection, size) in cases {
         let camera = Camera::around(DVec3::ZERO, 1.4, direction, projection, size);
@@ -86,7 +86,7 @@ fn the_local_pca_agrees(gpu: &Gpu) {
     let twin = reference::CompressedBtf::new(&lpca, &directions, &directions, Boundary::Periodic).expect("fits");
     let surface = bumpy(32, 16, Boundary::Periodic, 13);
     let lights = [Light::Directional { toward: dvec3(0.3, 0.4, 0.9).normalize(), irradiance: [1.0; 3] }];
-    let camera = Camera::around(DVec3::ZERO, 1.4, [0.4, 0.5], Projection::Perspective { field_of_view: 0.6 }, [48, 40]);
+    let camera = Camera::around(DVec3::ZERO, 1.4, [0.4, 0.5], Projection::Perspective { field_of_view: 0.6 }, [30, 24]);
     let renderer = Renderer::new(gpu).expect("builds");
     let progress = Progress::new(gpu.adapter());
     for texel_samples in TexelSamples::ALL {
