@@ -56,8 +56,7 @@ impl Projection {
 }
 
 impl Camera {
-    /// Radii of a mesh's ball between which depths lie: its relief may stand out of it, and nothing touches the near plane. Mesa 22.3's software
-    /// rasteriser writes past its memory where triangles are cut there, if its vectors have 128 bits.
+    /// Radii of a mesh's ball between which depths lie: its relief may stand out of it.
     pub const ROOM: f64 = 1.05;
 
     /// A camera that sees all of `mesh` from `bearing`, azimuth and elevation in degrees as of [`Self::around`], `angle` degrees between the

@@ -173,9 +173,9 @@ fn white_paint_sends_back_what_it_gets(gpu: &Gpu) {
         .collect();
     let mut surface = plain(4, 4);
     surface.painted = surface.painted.map(|_| [1.0; 4]);
-    for f0 in [0.0, 0.04, 0.25] {
+    for f0 in [0.04, 0.25] {
         surface.coat = surface.coat.map(|_| [f0, 1.0]);
-        for angle in [0.05_f64, 0.4, 0.8, 1.2] {
+        for angle in [0.4_f64, 1.2] {
             let toward = dvec3(angle.sin(), 0.0, angle.cos());
             let camera = Camera { eye: 3.0 * toward, depths: [0.5, 6.0], ..above([9, 9]) };
             let seen = draw(gpu, &view(Shape::Plane.mesh(), [1.0; 2], camera, &sky), &surface, Output::Radiance)[(4, 4)][0];
