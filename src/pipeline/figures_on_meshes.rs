@@ -35,12 +35,12 @@ const OILS: [(&str, f64); 3] = [("oil/alizarin crimson", 1.0), ("oil/sap green",
 /// Paints of figs. 4.13 and 4.14, with their thickness.
 const BRUSHED: [(&str, &str, &str, f64); 2] = [
     ("4.13", "Watercolour brushed on, once to three times as thick", "watercolour/french ultramarine", 0.5),
-    ("4.14", "Oil brushed on, once to three times as thick", "oil/cobalt blue", 0.5),
+    ("4.14", "Oil brushed on, once to three times as thick", "oil/cobalt blue", 3.0),
 ];
 
 /// The layers of figs. 4.15 and 4.16, from the bottom up.
 const LAYERS: [(&str, f64, Pattern); 4] = [
-    ("oil/cobalt blue", 2.0, Pattern::Brush { seed: 2, width: 0.4 }),
+    ("oil/cobalt blue", 6.0, Pattern::Brush { seed: 2, width: 0.4 }),
     ("oil/alizarin crimson", 1.5, Pattern::Splash { seed: 3 }),
     ("oil/burnt sienna", 1.5, Pattern::Spatter { seed: 4, cover: 0.25 }),
     ("oil/viridian", 1.5, Pattern::Flower { seed: 1, petals: 6 }),
