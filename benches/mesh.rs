@@ -9,22 +9,16 @@ use overpaint::{
     data::{Camera, Light, Material, Mesh, MeshView, Recipe, Sampling, Shape},
     gpu::Gpu,
     io,
-    model::{Layer, Paint, PaintMethod, Pattern, Relief, TexelSamples, pigments},
+    model::{Layer, Paint, PaintMethod, Relief, TexelSamples, pigments},
     pipeline::{Painter, Pictured, Progress, Renderer, Studio},
 };
 
+mod layers;
 mod rates;
+use layers::LAYERS;
 use rates::Rates;
 
 const SIZE: [u32; 2] = [768, 768];
-
-/// The thesis' four layers (fig. 4.15), each with a pattern.
-const LAYERS: [(&str, Pattern); 4] = [
-    ("oil/cobalt blue", Pattern::Splash { seed: 1 }),
-    ("oil/alizarin crimson", Pattern::Brush { seed: 2, width: 0.3 }),
-    ("oil/burnt sienna", Pattern::Spatter { seed: 3, cover: 0.3 }),
-    ("oil/viridian", Pattern::Flower { seed: 4, petals: 6 }),
-];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let gpu = Gpu::open(env::var("OVERPAINT_ADAPTER").ok().as_deref())?;

@@ -10,19 +10,13 @@ use overpaint::{
     stage::{self, KubelkaMunk, Normals, PaintStack, PatternImage},
 };
 
+mod layers;
 mod rates;
+use layers::LAYERS;
 use rates::Rates;
 
 const SIDE: u32 = 1024;
 const TEXELS: usize = (SIDE * SIDE) as usize;
-
-/// The thesis' four layers (fig. 4.15), each with a pattern.
-const LAYERS: [(&str, Pattern); 4] = [
-    ("oil/cobalt blue", Pattern::Splash { seed: 1 }),
-    ("oil/alizarin crimson", Pattern::Brush { seed: 2, width: 0.3 }),
-    ("oil/burnt sienna", Pattern::Spatter { seed: 3, cover: 0.3 }),
-    ("oil/viridian", Pattern::Flower { seed: 4, petals: 6 }),
-];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let gpu = Gpu::open(env::var("OVERPAINT_ADAPTER").ok().as_deref())?;

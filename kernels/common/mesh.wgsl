@@ -34,7 +34,7 @@ struct Camera {
 const OUTPUT_RADIANCE: u32 = 0u;
 // normal of the surface met, in the world, and distance from the eye's plane
 const OUTPUT_GEOMETRY: u32 = 1u;
-// coverage of paint, its thickness in texel widths, column and row of the texel met
+// coverage of paint, height met in texel widths over the base plane, column and row of the texel met
 const OUTPUT_PAINT: u32 = 2u;
 
 @group(0) @binding(12) var<uniform> camera: Camera;

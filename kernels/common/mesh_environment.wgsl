@@ -39,10 +39,9 @@ fn directional_albedo(f0: f32, roughness: f32, cosine: f32) -> f32 {
 fn painted_surroundings(texel: u32, view: vec3<f32>, to_environment: mat3x3<f32>) -> vec3<f32> {
     let normal = normals[texel].xyz;
     let f0 = coats[texel].x;
-    let alpha = min(sqrt(coats[texel].y * coats[texel].y + normals[texel].w), 1.0);
+    let alpha = coat_alpha(texel);
     let cosine = max(dot(normal, view), 0.0);
-    let leaving = 1.0 - schlick(f0, max(dot(normal, view), view.z));
-    let diffuse = leaving * painted[texel].rgb * mirrored(to_environment * normal, 1.0);
+    let diffuse = leaving(texel, view) * painted[texel].rgb * mirrored(to_environment * normal, 1.0);
     let reflection = reflect(-view, normal);
     let horizon = saturate(1.0 + reflection.z);
     return diffuse + horizon * directional_albedo(f0, alpha, cosine) * mirrored(to_environment * reflection, alpha);

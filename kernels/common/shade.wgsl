@@ -10,22 +10,29 @@
 // of the topmost paint's surface: reflectance F0 at normal incidence and GGX alpha
 @group(0) @binding(4) var<storage, read> coats: array<vec2<f32>>;
 
+// GGX alpha of a texel's coat. A coarser level's normals are means, whose spread makes the surface rougher.
+fn coat_alpha(texel: u32) -> f32 {
+    return min(sqrt(coats[texel].y * coats[texel].y + normals[texel].w), 1.0);
+}
+
+// Of what comes out of the paint, the share that leaves to a view. A normal that turns from the view further than the base plane does is
+// taken at the plane's angle: normals on a rim average in the side that is hidden, and would draw it dark.
+fn leaving(texel: u32, view: vec3<f32>) -> f32 {
+    return 1.0 - schlick(coats[texel].x, max(dot(normals[texel].xyz, view), view.z));
+}
+
 // Kubelka-Munk diffuse below a coat: of the light 1 - F enters and leaves at the angles of light and view, divided by the mean
 // of 1 - F over the hemisphere, so that what is not reflected is what the diffuse part gets (Kelemen, Szirmay-Kalos 2001).
-// Schlick's F has the cosine-weighted mean f0 + (1 - f0)/21. A normal that turns from the view further than the base plane does
-// is taken at the plane's angle: normals on a rim average in the side that is hidden, and would draw it dark.
+// Schlick's F has the cosine-weighted mean f0 + (1 - f0)/21.
 // `visible` is the share of the light that the place sees; what comes by way of others is as on the bare material, and enters
 // from everywhere.
 fn painted_radiance(texel: u32, visible: f32, view: vec3<f32>, light: vec3<f32>) -> vec3<f32> {
     let normal = normals[texel].xyz;
     let f0 = coats[texel].x;
-    // A coarser level's normals are means, whose spread makes the surface rougher.
-    let alpha = min(sqrt(coats[texel].y * coats[texel].y + normals[texel].w), 1.0);
     let cos_light = max(dot(normal, light), 0.0);
     let entering = visible * cos_light * (1.0 - schlick(f0, cos_light)) / ((1.0 - f0) * (20.0 / 21.0));
     let lit = mix(entering, light.z, scene.ambient);
-    let leaving = 1.0 - schlick(f0, max(dot(normal, view), view.z));
-    return leaving * lit * painted[texel].rgb + visible * ggx_specular(normal, view, light, alpha, f0);
+    return leaving(texel, view) * lit * painted[texel].rgb + visible * ggx_specular(normal, view, light, coat_alpha(texel), f0);
 }
 
 fn weights_of(cell: Cell) -> vec4<f32> {

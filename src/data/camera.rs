@@ -84,8 +84,7 @@ impl Camera {
             Projection::Perspective { field_of_view } => {
                 let half = (0.5 * field_of_view).tan();
                 let distance = places.map(|place| place.dot(toward) + reach(place) / half).fold(0.0, f64::max).max(1e-3 * radius);
-                let depths = [(distance - Self::ROOM * radius).max(1e-3 * distance), distance + Self::ROOM * radius];
-                Self { eye: center + distance * toward, depths, ..camera }
+                Self { eye: center + distance * toward, depths: Self::depths_of(distance, radius), ..camera }
             }
             Projection::Orthographic { .. } => {
                 let height = 2.0 * places.map(reach).fold(0.0, f64::max);
@@ -117,14 +116,12 @@ impl Camera {
         };
         // At the poles any direction is up that is not the view.
         let up = if elevation.cos().abs() < 1e-6 { dvec3(-azimuth.sin(), 0.0, -azimuth.cos()) * elevation.signum() } else { DVec3::Y };
-        Self {
-            eye: target + distance * toward,
-            target,
-            up,
-            projection,
-            depths: [(distance - Self::ROOM * radius).max(1e-3 * distance), distance + Self::ROOM * radius],
-            size,
-        }
+        Self { eye: target + distance * toward, target, up, projection, depths: Self::depths_of(distance, radius), size }
+    }
+
+    /// Depths that a ball of `radius` needs, `distance` from the eye to its middle.
+    fn depths_of(distance: f64, radius: f64) -> [f64; 2] {
+        [(distance - Self::ROOM * radius).max(1e-3 * distance), distance + Self::ROOM * radius]
     }
 
     /// Unit vector towards (`azimuth`, `elevation`), radians: azimuth from +z to the right, elevation towards +y.

@@ -98,10 +98,8 @@ impl OnMeshes<'_> {
         for (label, unpainted) in ways.into_iter().filter(|(_, way)| way.is_none() || self.job.material.lpca.is_some()) {
             let mut cells = Vec::new();
             for layers in [vec![], vec![layer.clone()]] {
-                for bearing in BEARINGS {
-                    let picture = self.picture(layers.clone(), mesh, bearing, unpainted)?;
-                    cells.push(Cell { picture, note: String::new() });
-                }
+                let pictures = self.pictures(layers, mesh, &BEARINGS, unpainted)?;
+                cells.extend(pictures.into_iter().map(|picture| Cell { picture, note: String::new() }));
             }
             rows.push(Row { label: label.to_owned(), cells });
         }
@@ -177,24 +175,29 @@ impl OnMeshes<'_> {
 
     /// A picture whose bare part is the original's, if it is there.
     fn bare_as_original(&self, layers: Vec<Layer>, mesh: &Mesh) -> Result<Map<[f32; 4]>, PipelineError> {
-        self.picture(layers, mesh, BEARINGS[0], self.job.material.lpca.is_some().then(TexelSamples::default))
+        let unpainted = self.job.material.lpca.is_some().then(TexelSamples::default);
+        Ok(self.pictures(layers, mesh, &BEARINGS[..1], unpainted)?.swap_remove(0))
     }
 
-    fn picture(
-        &self, layers: Vec<Layer>, mesh: &Mesh, bearing: [f64; 2], unpainted: Option<TexelSamples>,
-    ) -> Result<Map<[f32; 4]>, PipelineError> {
+    /// A picture from each of `bearings`.
+    fn pictures(
+        &self, layers: Vec<Layer>, mesh: &Mesh, bearings: &[[f64; 2]], unpainted: Option<TexelSamples>,
+    ) -> Result<Vec<Map<[f32; 4]>>, PipelineError> {
         let Job { settings, material, studio, painter, progress, .. } = self.job;
         let repeat = material.size().map(|texels| settings.texels.div_ceil(texels));
         let painted = painter.paint(material, &Recipe { repeat, layers, images: Vec::new() }, PaintMethod::KubelkaMunk, progress)?;
-        let camera = Camera::showing(mesh, bearing, MeshView::ANGLE_OF_VIEW, [settings.side; 2], false);
+        let camera = |bearing| Camera::showing(mesh, bearing, MeshView::ANGLE_OF_VIEW, [settings.side; 2], false);
         let view = MeshView {
             unpainted,
             sampling: Sampling { pictures: settings.rays, ..Sampling::default() },
-            ..MeshView::new(mesh.clone(), camera, Light::pair())
+            ..MeshView::new(mesh.clone(), camera(bearings[0]), Light::pair())
         };
         let dressed = self.renderer.dress(studio, &view, &painted, progress)?;
-        let picture = self.renderer.radiance(&dressed, &camera, progress)?;
-        Ok(picture.map(|&pixel| Development::default().develop(pixel)))
+        let seen = |&bearing: &[f64; 2]| {
+            let picture = self.renderer.radiance(&dressed, &camera(bearing), progress)?;
+            Ok(picture.map(|&pixel| Development::default().develop(pixel)))
+        };
+        bearings.iter().map(seen).collect()
     }
 }
 

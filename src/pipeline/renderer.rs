@@ -14,8 +14,8 @@ use crate::{
     stage::{Average, CompressedBtf, Environment, Minify, Surface},
 };
 
-/// Lights that stand for an environment on what is bare, each by a look at the original: with eight, shadows are soft and colours within a few
-/// per cent.
+/// Lights that stand for an environment on what is bare, each by a look at the original. Eight give a plane's irradiance within 15 % of all of
+/// the built-in environments' light, whichever way it faces (law::mesh_pass).
 const AROUND: usize = 8;
 
 /// Columns and rows of a tile at most: 16 MiB of pixels.

@@ -37,6 +37,7 @@ gpu_struct! {
     /// A vertex, as the shaders have it.
     pub struct Vertex { position: [f32; 3], u: f32, normal: [f32; 3], v: f32, tangent: [f32; 3], handedness: f32 }
 }
+
 /// What a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Output {

@@ -295,6 +295,8 @@ fn lights_stand_for_an_environment(gpu: &Gpu) {
         assert_eq!(few.len(), 8);
         for toward in [DVec3::Y, DVec3::Z, DVec3::X, dvec3(0.5, 0.6, 0.62).normalize()] {
             let (few, many) = (flux(toward, &few), flux(toward, &many));
+            // What a plane that cuts a light's part of the sky in two gets of it, an eighth of all, may come whole or not at all: a quarter is
+            // two such parts.
             hold("environment: irradiance by eight lights", (few / many - 1.0).abs(), 0.25);
         }
         let total = |lights: &[Light]| lights.iter().map(|light| match light { Light::Directional { irradiance, .. } => irradiance[1], Light::Point { .. } => f64::NAN }).sum::<f64>();
