@@ -101,14 +101,18 @@ sources! {
     LOBE_RESIDUAL = "kernels" "lobe_residual";
     /// Whether a sample is no radiance.
     MASKED = "kernels/common" "masked";
-    /// A mesh that wears a material.
+    /// A mesh that wears a material, where it is seen.
     MESH = "kernels/common" "mesh";
+    /// A mesh as the base plane of a relief.
+    MESH_BASE = "kernels/common" "mesh_base";
     /// Light of an environment on the paint of a mesh.
     MESH_ENVIRONMENT = "kernels/common" "mesh_environment";
     /// Shadow of a mesh on itself.
     MESH_SHADOW = "kernels/common" "mesh_shadow";
     /// Vertices of a mesh.
     MESH_VERTICES = "kernels/common" "mesh_vertices";
+    /// What each pixel sees of a mesh that wears a material.
+    MESH_HIT = "shaders" "mesh_hit";
     /// Of it, the bare part by local PCA.
     MESH_LPCA = "shaders" "mesh_lpca";
     /// Of it, the bare part by reflectance.

@@ -6,6 +6,7 @@
 #![expect(clippy::cast_possible_truncation, reason = "tests count and round small numbers")]
 
 mod cli;
+mod interface;
 mod io;
 mod law;
 mod layers;
@@ -17,8 +18,10 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = libtest_mimic::Arguments::from_args();
-    let trials =
-        [cli::tests(), io::tests(), law::tests(), layers::tests(), parity::tests(), shaders::tests()].into_iter().flatten().collect();
+    let trials = [cli::tests(), interface::tests(), io::tests(), law::tests(), layers::tests(), parity::tests(), shaders::tests()]
+        .into_iter()
+        .flatten()
+        .collect();
     let conclusion = libtest_mimic::run(&arguments, trials);
     support::print_figures();
     conclusion.exit_code()

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// The most vertices of a mesh, and the most triangles.
+/// The most vertices of a mesh, and the most triangles: single precision counts them.
 pub const MAX_VERTICES: usize = 1 << 24;
 
 /// The largest magnitude of a coordinate of a position, whose square single precision still holds.

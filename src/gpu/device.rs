@@ -2,7 +2,7 @@
 
 use pollster::block_on;
 
-use super::{GpuError, Recorder, Submission};
+use super::{GpuError, Kernel, Raster, Recorder, Submission, kernel::Built};
 
 /// What a user needs to know to choose an adapter.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -79,6 +79,8 @@ pub fn adapters() -> Vec<AdapterSummary> {
 pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
+    pub(super) kernels: Built<Kernel>,
+    pub(super) rasters: Built<Raster>,
     adapter: AdapterSummary,
 }
 
@@ -112,7 +114,7 @@ impl Gpu {
         };
         let (device, queue) = block_on(adapter.request_device(&descriptor))
             .map_err(|error| GpuError::Device { adapter: summary.name.clone(), reason: error.to_string() })?;
-        Ok(Self { device, queue, adapter: summary })
+        Ok(Self { device, queue, kernels: Built::default(), rasters: Built::default(), adapter: summary })
     }
 
     /// The adapter behind this device.

@@ -1,10 +1,14 @@
 //! Compute kernels: built from a source, checked against their host's declaration, dispatched by the recorder.
 
-use std::num::NonZeroU64;
+use std::{
+    collections::HashMap,
+    num::NonZeroU64,
+    sync::{Mutex, PoisonError},
+};
 
 use pollster::block_on;
 
-use super::{Access, Buffer, DepthLayers, Gpu, GpuError, GpuValue, Layers, Resource, Source, interface, reflect};
+use super::{Access, Buffer, DepthLayers, Gpu, GpuError, GpuValue, Layers, Resource, Source, Target, interface, reflect};
 
 /// A buffer or texture bound to a name for one dispatch.
 #[derive(Debug, Clone, Copy)]
@@ -38,6 +42,12 @@ pub fn bind_depth_layers<'a>(name: &'a str, depths: &'a DepthLayers) -> Bind<'a>
     Bind { name, bound: Bound::Texture(&depths.view, Access::DepthLayers) }
 }
 
+/// Binds what was drawn into `target` to the WGSL variable `name`.
+#[must_use]
+pub fn bind_target<'a>(name: &'a str, target: &'a Target) -> Bind<'a> {
+    Bind { name, bound: Bound::Texture(&target.layers, Access::Layers) }
+}
+
 /// How many threads a dispatch needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Grid {
@@ -62,21 +72,44 @@ impl Grid {
     }
 }
 
-/// The layout and names shared by compute kernels and render passes.
+/// The passes of one kind that a device has built, by their linked text. Stages are built where they are used, and so again and again; a
+/// driver takes a tenth of a second and more for each.
 #[derive(Debug)]
+pub(super) struct Built<T>(Mutex<HashMap<String, T>>);
+
+impl<T> Default for Built<T> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<T: Clone> Built<T> {
+    /// The pass of this text; `build` makes it if there is none yet.
+    pub(super) fn get_or_build(&self, text: String, build: impl FnOnce(&str) -> Result<T, GpuError>) -> Result<T, GpuError> {
+        let built = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pass) = built().get(&text) {
+            return Ok(pass.clone());
+        }
+        // Another thread may build the same meanwhile: either serves.
+        let pass = build(&text)?;
+        built().insert(text, pass.clone());
+        Ok(pass)
+    }
+}
+
+/// The layout and names shared by compute kernels and render passes.
+#[derive(Debug, Clone)]
 pub(super) struct Bindings {
     pub(super) name: &'static str,
     pub(super) layout: wgpu::BindGroupLayout,
     resources: Vec<(u32, Resource)>,
 }
 
-/// Reads the shader's interface, checks the host's side against it, and builds module and layouts.
+/// Reads the shader's interface, and builds module and layouts.
 pub(super) fn build(
-    gpu: &Gpu, source: &Source, library: &[Source], host: &[Resource],
+    gpu: &Gpu, source: &Source, text: &str,
 ) -> Result<(Bindings, interface::Reflection, wgpu::ShaderModule, wgpu::PipelineLayout), GpuError> {
-    let text = source.link(library)?;
-    let reflection = reflect(source.name, &text)?;
-    interface::compare(source.name, &reflection.resources, host)?;
+    let reflection = reflect(source.name, text)?;
     let entries: Vec<_> = reflection
         .resources
         .iter()
@@ -116,6 +149,11 @@ fn binding_type(resource: &Resource) -> wgpu::BindingType {
 }
 
 impl Bindings {
+    /// Checks the host's side against the shader's.
+    pub(super) fn check(&self, host: &[Resource]) -> Result<(), GpuError> {
+        interface::compare(self.name, &self.resources, host)
+    }
+
     /// # Panics
     /// If a name is missing, unknown, or bound to another kind of thing or to elements of another size: the host's bug.
     pub(super) fn group(&self, gpu: &Gpu, binds: &[Bind<'_>]) -> wgpu::BindGroup {
@@ -148,7 +186,7 @@ impl Bindings {
 }
 
 /// A compute kernel, ready to be dispatched.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Kernel {
     pub(super) bindings: Bindings,
     pub(super) pipeline: wgpu::ComputePipeline,
@@ -162,8 +200,14 @@ impl Kernel {
     /// # Errors
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
+        let kernel = gpu.kernels.get_or_build(source.link(library)?, |text| Self::build(gpu, source, text))?;
+        kernel.bindings.check(resources)?;
+        Ok(kernel)
+    }
+
+    fn build(gpu: &Gpu, source: &Source, text: &str) -> Result<Self, GpuError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let (bindings, reflection, module, layout) = build(gpu, source, library, resources)?;
+        let (bindings, reflection, module, layout) = build(gpu, source, text)?;
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(source.name),
             layout: Some(&layout),

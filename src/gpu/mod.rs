@@ -15,7 +15,7 @@ pub use buffer::Buffer;
 pub use device::{AdapterSummary, Gpu, adapters};
 pub use error::{GpuError, LinkError};
 pub use interface::{Access, Resource, reflect};
-pub use kernel::{Bind, Grid, Kernel, bind, bind_depth_layers, bind_layers};
+pub use kernel::{Bind, Grid, Kernel, bind, bind_depth_layers, bind_layers, bind_target};
 pub use layout::{Field, GpuValue, Scalar};
 pub use raster::{Raster, Target};
 pub use recorder::{PassTime, Recorder, Submission};

@@ -15,7 +15,7 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 const BAND_PIXELS: u32 = 1 << 18;
 
 /// A render pass, ready to draw.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Raster {
     pub(super) bindings: kernel::Bindings,
     pub(super) pipeline: wgpu::RenderPipeline,
@@ -28,7 +28,7 @@ impl Raster {
     /// # Errors
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
-        Self::build(gpu, source, library, resources, Some("fragment"))
+        Self::of(gpu, source, library, resources, Some("fragment"))
     }
 
     /// As [`Self::new`], without a fragment stage: it draws the depth alone, into a layer of [`DepthLayers`](super::DepthLayers).
@@ -36,12 +36,18 @@ impl Raster {
     /// # Errors
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn depth(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
-        Self::build(gpu, source, library, resources, None)
+        Self::of(gpu, source, library, resources, None)
     }
 
-    fn build(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource], fragment: Option<&str>) -> Result<Self, GpuError> {
+    fn of(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource], fragment: Option<&str>) -> Result<Self, GpuError> {
+        let raster = gpu.rasters.get_or_build(source.link(library)?, |text| Self::build(gpu, source, text, fragment))?;
+        raster.bindings.check(resources)?;
+        Ok(raster)
+    }
+
+    fn build(gpu: &Gpu, source: &Source, text: &str, fragment: Option<&str>) -> Result<Self, GpuError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let (bindings, _, module, layout) = kernel::build(gpu, source, library, resources)?;
+        let (bindings, _, module, layout) = kernel::build(gpu, source, text)?;
         let targets = [Some(FORMAT.into())];
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(source.name),
@@ -83,11 +89,12 @@ impl Raster {
     }
 }
 
-/// A picture to draw into: `[height][width]` RGBA, linear, 32-bit float.
+/// A picture to draw into: `[height][width]` RGBA, linear, 32-bit float. Later passes read it as a `texture_2d_array<f32>` of one layer.
 #[derive(Debug)]
 pub struct Target {
     texture: wgpu::Texture,
     pub(super) view: wgpu::TextureView,
+    pub(super) layers: wgpu::TextureView,
     pub(super) depth: wgpu::TextureView,
     width: u32,
     height: u32,
@@ -101,9 +108,10 @@ impl Target {
     pub fn new(gpu: &Gpu, width: u32, height: u32) -> Result<Self, GpuError> {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let depth = texture::allocate(gpu, "depth", [width, height, 1], DEPTH, attachment)?;
-        let texture = texture::allocate(gpu, "picture", [width, height, 1], FORMAT, attachment | wgpu::TextureUsages::COPY_SRC)?;
+        let usage = attachment | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING;
+        let texture = texture::allocate(gpu, "picture", [width, height, 1], FORMAT, usage)?;
         let [view, depth] = [&texture, &depth].map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
-        Ok(Self { texture, view, depth, width, height })
+        Ok(Self { layers: texture::all_layers(&texture), texture, view, depth, width, height })
     }
 
     /// Records a copy of the picture into a buffer `[height][row_pixels]`, rows padded as WebGPU asks; see [`Target::unpad`].

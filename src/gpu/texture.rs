@@ -79,7 +79,7 @@ impl DepthLayers {
     }
 }
 
-fn all_layers(texture: &wgpu::Texture) -> wgpu::TextureView {
+pub(super) fn all_layers(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() })
 }
 

@@ -194,13 +194,17 @@ impl<'g> Renderer<'g> {
         {
             let size = [TILE.min(width - left), TILE.min(height - top)];
             let pixels = size[0] as usize * size[1] as usize;
-            let target = Target::new(self.gpu, size[0], size[1])?;
+            let [met, target] = [Target::new(self.gpu, size[0], size[1])?, Target::new(self.gpu, size[0], size[1])?];
             let mean = self.gpu.fresh("mean picture", pixels)?;
+            let shown = Shown { sampling, ..dressed.shown() };
             for sample in 0..sampling.pictures {
+                let [right, down] = within_pixel(sample, sampling.pictures);
+                let window = Window { corner: [f64::from(left) + right, f64::from(top) + down], size: size.map(f64::from) };
+                run(self.gpu, progress, "mesh_hit", [pixels, 1], |recorder| {
+                    Ok::<_, PipelineError>(self.pass.hit(recorder, shown, camera, window, &met)?)
+                })?;
                 run(self.gpu, progress, "mesh", [pixels, 1], |recorder| {
-                    let [right, down] = within_pixel(sample, sampling.pictures);
-                    let window = Window { corner: [f64::from(left) + right, f64::from(top) + down], size: size.map(f64::from) };
-                    self.pass.draw(recorder, Shown { sampling, ..dressed.shown() }, camera, window, output, &target)?;
+                    self.pass.shade(recorder, shown, camera, window, &met, output, &target)?;
                     let drawn = target.record_copy(recorder)?;
                     self.average.record(recorder, &drawn, &mean, [size[0] as usize, target.row_pixels()], [sample, sampling.pictures])
                 })?;

@@ -1,5 +1,5 @@
-//! A mesh that wears a material. Shaders `mesh_svbrdf` and `mesh_lpca`, by what the bare part is made from; twin
-//! [`reference::mesh`](crate::reference::mesh).
+//! A mesh that wears a material. Shader `mesh_hit` finds the point that each pixel sees, and `mesh_svbrdf` or `mesh_lpca`, by what the bare
+//! part is made from, shades it; twin [`reference::mesh`](crate::reference::mesh).
 //!
 //! The mesh is the base plane: rays are followed through the relief from where they cross it, in the frame of tangent, bitangent and normal
 //! there. A texel is as wide in the world as the triangle's texture coordinates make it, on the mean of both directions.
@@ -9,10 +9,10 @@ use glam::{DMat4, DVec3};
 use super::{Lighting, SurroundingsBuffers};
 use crate::{
     data::{Camera, Mesh, Sampling, Window},
-    gpu::{Bind, Buffer, Gpu, GpuError, Raster, Recorder, Resource, Target, bind},
+    gpu::{Bind, Buffer, Gpu, GpuError, Raster, Recorder, Resource, Target, bind, bind_target},
     gpu_struct,
     model::{Relief, TexelSamples},
-    stage::{CompressedBtf, Scene, Surface, count, single},
+    stage::{CompressedBtf, HeightField, Scene, Surface, count, single},
     wgsl,
 };
 
@@ -113,6 +113,7 @@ impl MeshBuffers {
 /// The render passes on one device.
 #[derive(Debug)]
 pub struct MeshPass {
+    hit: Raster,
     svbrdf: Raster,
     lpca: Raster,
 }
@@ -123,60 +124,54 @@ impl MeshPass {
     /// # Errors
     /// [`GpuError`] if the driver refuses one.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
+        let base = [Resource::uniform::<CameraParams>("camera"), Resource::read::<Vertex>("vertices"), Resource::read::<u32>("corners")];
         let with = |bare: Vec<Resource>| {
-            let mut resources = Surface::painted_resources();
-            resources.extend(bare);
+            let mut resources = [Surface::painted_resources(), bare, base.to_vec()].concat();
             resources.extend(Lighting::resources());
             resources.extend(SurroundingsBuffers::resources());
-            resources.extend([
-                Resource::uniform::<CameraParams>("camera"),
-                Resource::read::<Vertex>("vertices"),
-                Resource::read::<u32>("corners"),
-            ]);
+            resources.push(Resource::layers("met"));
             resources
         };
         Ok(Self {
+            hit: Raster::new(gpu, &wgsl::MESH_HIT, wgsl::ALL, &[&HeightField::resources()[..], &base].concat())?,
             svbrdf: Raster::new(gpu, &wgsl::MESH_SVBRDF, wgsl::ALL, &with(Surface::bare_resources()))?,
             lpca: Raster::new(gpu, &wgsl::MESH_LPCA, wgsl::ALL, &with(CompressedBtf::resources()))?,
         })
     }
 
-    /// Draws `shown` into `target`, which shows the part `window` of the camera's picture.
+    /// Finds what each pixel of `met`, the part `window` of the camera's picture, sees of `shown`: place and height of the point, in texels,
+    /// and its triangle, counted from 1.
     ///
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
-    pub fn draw(
-        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, output: Output, target: &Target,
+    pub fn hit(
+        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, met: &Target,
+    ) -> Result<(), GpuError> {
+        let uniforms = Uniforms::new(recorder.gpu(), shown, camera, window, Output::Radiance)?;
+        let binds = [&shown.surface.field.binds(&uniforms.scene)[..], &uniforms.binds(shown.mesh)].concat();
+        recorder.draw(&self.hit, &binds, count(shown.mesh.corners.len()), 1, met);
+        Ok(())
+    }
+
+    /// Draws what `output` says of the points `met` into `target`, of the same size; all else as [`Self::hit`] had it.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the adapter is out of memory.
+    pub fn shade(
+        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, met: &Target, output: Output,
+        target: &Target,
     ) -> Result<(), GpuError> {
         let gpu = recorder.gpu();
-        let Shown { mesh, lighting, surroundings, sampling, .. } = shown;
-        let scene: Buffer<Scene> = shown.surface.unlit_scene(gpu, shown.relief)?;
-        #[expect(clippy::cast_precision_loss, reason = "columns and rows")]
-        let texels = shown.surface.field.size.map(|side| side as f32);
-        let [clip_x, clip_y, clip_z, clip_w] = clip_rows(camera.clip_from_world(window));
-        let params = CameraParams {
-            lights: lighting.count(),
-            output: output as u32,
-            silhouette: shown.silhouette.into(),
-            levels: shown.surface.levels,
-            rays: sampling.rays.max(1),
-            footprint: single(1.0 / f64::from(sampling.pictures.max(1)).sqrt()),
-            eye: camera.homogeneous_eye().as_vec4().to_array(),
-            clip_x,
-            clip_y,
-            clip_z,
-            clip_w,
-            environment: surroundings.params(),
-            sheet: [0, 1].map(|axis| mesh.tiling[axis] * texels[axis]),
-        };
-        let camera = gpu.uniform("camera", &params)?;
-        let mut binds = shown.surface.painted_binds(&scene);
-        binds.extend([bind("camera", &camera), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)]);
-        binds.extend(lighting.binds());
-        binds.extend(surroundings.binds());
-        let vertices = count(mesh.corners.len());
+        let uniforms = Uniforms::new(gpu, shown, camera, window, output)?;
+        let mut binds = shown.surface.painted_binds(&uniforms.scene);
+        binds.extend(uniforms.binds(shown.mesh));
+        binds.extend(shown.lighting.binds());
+        binds.extend(shown.surroundings.binds());
+        binds.push(bind_target("met", met));
+        let vertices = count(shown.mesh.corners.len());
         // The most rays of a pixel, each under all lights.
-        let cost = (params.rays * params.rays * params.lights.max(1)).div_ceil(4);
+        let rays = shown.sampling.rays.max(1);
+        let cost = (rays * rays * shown.lighting.count().max(1)).div_ceil(4);
         match shown.compressed {
             None => {
                 binds.extend(shown.surface.bare_binds());
@@ -189,6 +184,41 @@ impl MeshPass {
             }
         }
         Ok(())
+    }
+}
+
+/// What both passes have of a picture.
+struct Uniforms {
+    scene: Buffer<Scene>,
+    camera: Buffer<CameraParams>,
+}
+
+impl Uniforms {
+    fn new(gpu: &Gpu, shown: Shown<'_>, camera: &Camera, window: Window, output: Output) -> Result<Self, GpuError> {
+        let Shown { mesh, surface, sampling, .. } = shown;
+        #[expect(clippy::cast_precision_loss, reason = "columns and rows")]
+        let texels = surface.field.size.map(|side| side as f32);
+        let [clip_x, clip_y, clip_z, clip_w] = clip_rows(camera.clip_from_world(window));
+        let params = CameraParams {
+            lights: shown.lighting.count(),
+            output: output as u32,
+            silhouette: shown.silhouette.into(),
+            levels: surface.levels,
+            rays: sampling.rays.max(1),
+            footprint: single(1.0 / f64::from(sampling.pictures.max(1)).sqrt()),
+            eye: camera.homogeneous_eye().as_vec4().to_array(),
+            clip_x,
+            clip_y,
+            clip_z,
+            clip_w,
+            environment: shown.surroundings.params(),
+            sheet: [0, 1].map(|axis| mesh.tiling[axis] * texels[axis]),
+        };
+        Ok(Self { scene: surface.unlit_scene(gpu, shown.relief)?, camera: gpu.uniform("camera", &params)? })
+    }
+
+    fn binds<'a>(&'a self, mesh: &'a MeshBuffers) -> [Bind<'a>; 3] {
+        [bind("camera", &self.camera), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)]
     }
 }
 

@@ -62,6 +62,24 @@ impl Fft {
         Ok(Self { kernel: Kernel::new(gpu, &wgsl::FFT, wgsl::ALL, &resources)? })
     }
 
+    /// Prime factors of `length` in rising order after its fours, which stand for pairs of twos: the radices of its passes. 1 has the factor
+    /// 1: a copy.
+    #[must_use]
+    pub fn factors(length: u32) -> Vec<u32> {
+        if length == 1 {
+            return vec![1];
+        }
+        let mut factors = Vec::new();
+        let mut rest = length;
+        for radix in std::iter::once(4).chain(2..=length) {
+            while rest.is_multiple_of(radix) {
+                factors.push(radix);
+                rest /= radix;
+            }
+        }
+        factors
+    }
+
     /// The transform of `field` `[row][column]`, (real, imaginary) of [columns, rows] `size`; frequencies in natural order,
     /// zero first.
     ///
@@ -122,7 +140,7 @@ impl Axis {
     fn passes(&self) -> impl Iterator<Item = (&Self, Params)> {
         let &Self { length, stride, .. } = self;
         let mut done = 1;
-        factors(length).into_iter().map(move |radix| {
+        Fft::factors(length).into_iter().map(move |radix| {
             let params = Params { length, stride, done, radix, rest: length / done / radix, ..Params::default() };
             done *= radix;
             (self, params)
@@ -130,42 +148,7 @@ impl Axis {
     }
 }
 
-/// Prime factors of `length` in rising order after its fours, which stand for pairs of twos. 1 has the factor 1: a copy.
-fn factors(length: u32) -> Vec<u32> {
-    if length == 1 {
-        return vec![1];
-    }
-    let mut factors = Vec::new();
-    let mut rest = length;
-    for radix in std::iter::once(4).chain(2..=length) {
-        while rest.is_multiple_of(radix) {
-            factors.push(radix);
-            rest /= radix;
-        }
-    }
-    factors
-}
-
 /// What makes the inverse the inverse: one over the number of values.
 fn scale([width, height]: [u32; 2]) -> f32 {
     single(1.0 / (f64::from(width) * f64::from(height)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::factors;
-
-    #[test]
-    fn factors_are_prime_or_four_and_multiply_to_the_length() {
-        for length in 1..=2000 {
-            let factors = factors(length);
-            assert_eq!(factors.iter().product::<u32>(), length);
-            for factor in factors {
-                assert!(factor == 4 || (2..factor).all(|divisor| factor % divisor != 0), "{factor} of {length}");
-            }
-        }
-        assert_eq!(factors(400), [4, 4, 5, 5]);
-        assert_eq!(factors(4093), [4093]);
-        assert_eq!(factors(1), [1]);
-    }
 }

@@ -81,7 +81,8 @@ fn a_killed_import_is_ended_by_the_next() {
 fn a_killed_fit_is_ended_by_the_next(gpu: &Gpu) {
     let folder = tempfile::tempdir().expect("is made");
     write_tree(&folder.path().join("tree"), 64);
-    // The normals in two tiles, the reflectance in three blocks of 22 rows at most, two tiles each.
-    let arguments = ["fit", "tree", "--vram", "1MiB", "--memory", "1MiB", "--adapter", &gpu.adapter().name];
+    // The normals in two tiles, the reflectance in three blocks of 22 rows at most, two tiles each. Few steps, for time's sake.
+    let bounds = ["--vram", "1MiB", "--memory", "1MiB", "--steps", "2", "--clusters", "4", "--components", "2", "--iterations", "6"];
+    let arguments = [&["fit", "tree", "--adapter", &gpu.adapter().name], &bounds[..]].concat();
     kill_and_run_again(folder.path(), &arguments, 4);
 }

@@ -6,6 +6,7 @@ use rustfft::{FftPlanner, num_complex::Complex};
 use crate::support::{fft_bound as bound, hold, random::Random, worst_difference};
 
 crate::suite! {
+    plain: factors_are_prime_or_four_and_multiply_to_the_length;
     gpu: the_inverse_undoes_the_transform, energy_is_kept, an_impulse_is_flat, it_is_linear, a_shift_is_a_phase, agrees_with_rustfft;
 }
 
@@ -118,4 +119,17 @@ fn agrees_with_rustfft(gpu: &Gpu) {
         let expected = (0..width * height).map(|at| columns[at % width * height + at / width]).map(|value| [value.re, value.im]);
         hold("fft: against rustfft", relative(&found, expected), bound(width) + bound(height));
     }
+}
+
+fn factors_are_prime_or_four_and_multiply_to_the_length() {
+    for length in 1..=2000 {
+        let factors = stage::Fft::factors(length);
+        assert_eq!(factors.iter().product::<u32>(), length);
+        for factor in factors {
+            assert!(factor == 4 || (2..factor).all(|divisor| factor % divisor != 0), "{factor} of {length}");
+        }
+    }
+    assert_eq!(stage::Fft::factors(400), [4, 4, 5, 5]);
+    assert_eq!(stage::Fft::factors(4093), [4093]);
+    assert_eq!(stage::Fft::factors(1), [1]);
 }
