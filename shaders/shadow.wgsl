@@ -13,6 +13,6 @@ struct Shadow {
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
-    let p = vec4(vertices[corners[index]].position, 1.0);
+    let p = vec4(vertex_position(triangle_corners(index / 3u)[index % 3u]), 1.0);
     return vec4(dot(shadow.clip_x, p), dot(shadow.clip_y, p), dot(shadow.clip_z, p), dot(shadow.clip_w, p));
 }

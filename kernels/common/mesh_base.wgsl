@@ -1,5 +1,5 @@
-// A mesh as the base plane of a relief (Policarpo, Oliveira, Comba 2005): a fragment is where a view ray crosses it, and has the frame in
-// which the ray is followed through the relief from there. Passes that import this import `height_field` too. Twin: reference::mesh.
+// A mesh as the base plane of a relief (Policarpo, Oliveira, Comba 2005): where the view ray of a pixel crosses a triangle, and the frame in
+// which it is followed through the relief from there. Passes that import this import `height_field` too. Twin: reference::mesh.
 #import mesh_vertices
 
 struct Camera {
@@ -23,6 +23,11 @@ struct Camera {
     footprint: f32,
     // texels across and down the sheet of the mesh's texture coordinates from 0 to 1
     sheet: vec2<f32>,
+    // columns and rows of the picture
+    size: vec2<f32>,
+    // 1: triangles are left out that turn their inner side to the eye
+    outer_only: u32,
+    _pad: u32,
     // factor on the environment, 0 where there is none, and cosine and sine of the angle that it has turned by about y
     environment: vec4<f32>,
 }
@@ -38,22 +43,23 @@ const OUTPUT_PAINT: u32 = 2u;
 // A view that a smooth normal turns away from, though the triangle is seen, counts as this low above the base plane.
 const LOWEST_VIEW: f32 = 0.02;
 
-struct Fragment {
-    @builtin(position) clip: vec4<f32>,
-    @location(0) position: vec3<f32>,
-    @location(1) normal: vec3<f32>,
-    @location(2) tangent: vec3<f32>,
-    @location(3) place: vec2<f32>,
-    @location(4) @interpolate(flat) handedness: f32,
+// Where a view ray crosses the mesh.
+struct Crossing {
+    // in the world
+    position: vec3<f32>,
+    // of the base plane there: material x, y and z in the world
+    tangent: vec3<f32>,
+    bitangent: vec3<f32>,
+    normal: vec3<f32>,
+    // on the plane of texels, and its change from a pixel to the next to the right and downwards
+    place: vec2<f32>,
+    across: vec2<f32>,
+    down: vec2<f32>,
     // world units
-    @location(5) @interpolate(flat) texel_width: f32,
-    // its triangle, counted from 1; 0 stands for none
-    @location(6) @interpolate(flat) triangle: u32,
-}
-
-// Place on the plane of texels, centres at whole numbers: rows run down from v's largest, the upper edge of the sheet.
-fn place_of(vertex: Vertex) -> vec2<f32> {
-    return vec2(vertex.u * f32(scene.width), camera.sheet.y - vertex.v * f32(scene.height)) - 0.5;
+    texel_width: f32,
+    // the way back to the eye, in the world and in the frame of the base plane
+    towards: vec3<f32>,
+    view: vec3<f32>,
 }
 
 fn clip_of(position: vec3<f32>) -> vec4<f32> {
@@ -61,68 +67,73 @@ fn clip_of(position: vec3<f32>) -> vec4<f32> {
     return vec4(dot(camera.clip_x, p), dot(camera.clip_y, p), dot(camera.clip_z, p), dot(camera.clip_w, p));
 }
 
-@vertex
-fn vertex(@builtin(vertex_index) index: u32) -> Fragment {
-    let triangle = index / 3u * 3u;
-    let a = vertices[corners[triangle]];
-    let b = vertices[corners[triangle + 1u]];
-    let c = vertices[corners[triangle + 2u]];
-    // World units that a texel is wide: the root of the triangle's area over that in texels.
+// Place on the plane of texels, centres at whole numbers: rows run down from v's largest, the upper edge of the sheet.
+fn place_of(vertex: Vertex) -> vec2<f32> {
+    return vec2(vertex.u * f32(scene.width), camera.sheet.y - vertex.v * f32(scene.height)) - 0.5;
+}
+
+// A vertex as seen about a point of the picture: clip x and y from there, and w.
+fn seen_about(point: vec2<f32>, vertex: Vertex) -> vec3<f32> {
+    let clip = clip_of(vertex.position);
+    return vec3(clip.xy - point * clip.w, clip.w);
+}
+
+// The vector's direction; of one without a length another.
+fn direction_or(vector: vec3<f32>, other: vec3<f32>) -> vec3<f32> {
+    let square = dot(vector, vector);
+    return select(other, vector * inverseSqrt(square), square > 1e-12);
+}
+
+// The crossing of a triangle, counted from 1, with the ray of a point of the picture, in pixels. A vertex's share is, up to a common factor,
+// linear in the picture (Olano, Greer 1997); taken about the point itself, small triangles far away lose no digits.
+fn crossing_of(triangle: u32, pixel: vec2<f32>) -> Crossing {
+    let corners = triangle_corners(triangle - 1u);
+    let a = vertex_at(corners.x);
+    let b = vertex_at(corners.y);
+    let c = vertex_at(corners.z);
+    let point = vec2(2.0, -2.0) * pixel / camera.size + vec2(-1.0, 1.0);
+    let seen_a = seen_about(point, a);
+    let seen_b = seen_about(point, b);
+    let seen_c = seen_about(point, c);
+    // Rows: change to the right and upwards, and value, of each vertex's share.
+    let planes = transpose(mat3x3(cross(seen_b, seen_c), cross(seen_c, seen_a), cross(seen_a, seen_b)));
+    let sums = vec3(1.0) * planes;
+    let shares = planes[2] / sums.z;
+    let right = (planes[0] - sums.x * shares) / sums.z * (2.0 / camera.size.x);
+    let down = (planes[1] - sums.y * shares) / sums.z * (-2.0 / camera.size.y);
+
+    let places = mat3x2(place_of(a), place_of(b), place_of(c));
+    // World units that a texel is wide: the root of the triangle's area over that in texels. Of no texels, none: it shows one and no relief.
     let area = length(cross(b.position - a.position, c.position - a.position));
-    let ab = place_of(b) - place_of(a);
-    let ac = place_of(c) - place_of(a);
-    let texels = abs(ab.x * ac.y - ab.y * ac.x);
-    let own = vertices[corners[index]];
-    var out: Fragment;
-    out.clip = clip_of(own.position);
-    out.position = own.position;
-    out.normal = own.normal;
-    out.tangent = own.tangent;
-    out.place = place_of(own);
-    out.handedness = own.handedness;
-    // A triangle whose texture coordinates have no area shows one texel, and no relief.
+    let texels = abs(determinant(mat2x2(places[1] - places[0], places[2] - places[0])));
+
+    var out: Crossing;
+    out.position = mat3x3(a.position, b.position, c.position) * shares;
+    out.place = places * shares;
+    out.across = places * right;
+    out.down = places * down;
     out.texel_width = select(0.0, sqrt(area / texels), texels > 1e-6);
-    out.triangle = index / 3u + 1u;
+    let outside = direction_or(mat3x3(a.normal, b.normal, c.normal) * shares, a.normal);
+    let tangent = mat3x3(a.tangent, b.tangent, c.tangent) * shares;
+    out.tangent = direction_or(tangent - dot(tangent, outside) * outside, a.tangent);
+    out.bitangent = a.handedness * cross(outside, out.tangent);
+    // From the back a sheet shows the same relief, mirrored.
+    out.normal = select(-outside, outside, sums.z > 0.0);
+    out.towards = normalize(camera.eye.xyz - camera.eye.w * out.position);
+    let view = in_base(out, out.towards);
+    out.view = normalize(vec3(view.xy, max(view.z, LOWEST_VIEW)));
     return out;
 }
 
-// The frame of the base plane at a fragment: material x, y and z in the world.
-struct BaseFrame {
-    tangent: vec3<f32>,
-    bitangent: vec3<f32>,
-    normal: vec3<f32>,
+fn in_base(base: Crossing, direction: vec3<f32>) -> vec3<f32> {
+    return vec3(dot(base.tangent, direction), dot(base.bitangent, direction), dot(base.normal, direction));
 }
 
-// From the back a sheet shows the same relief, mirrored.
-fn base_frame(in: Fragment, front: bool) -> BaseFrame {
-    let outside = normalize(in.normal);
-    let tangent = normalize(in.tangent - dot(in.tangent, outside) * outside);
-    return BaseFrame(tangent, in.handedness * cross(outside, tangent), select(-outside, outside, front));
+fn world_of(base: Crossing, direction: vec3<f32>) -> vec3<f32> {
+    return direction.x * base.tangent + direction.y * base.bitangent + direction.z * base.normal;
 }
 
-fn in_base(frame: BaseFrame, direction: vec3<f32>) -> vec3<f32> {
-    return vec3(dot(frame.tangent, direction), dot(frame.bitangent, direction), dot(frame.normal, direction));
-}
-
-fn world_of(frame: BaseFrame, direction: vec3<f32>) -> vec3<f32> {
-    return direction.x * frame.tangent + direction.y * frame.bitangent + direction.z * frame.normal;
-}
-
-// The way back along a fragment's view ray.
-struct Ray {
-    // in the world
-    towards: vec3<f32>,
-    // in the frame of the base plane
-    view: vec3<f32>,
-}
-
-fn ray_of(in: Fragment, frame: BaseFrame) -> Ray {
-    let towards = normalize(camera.eye.xyz - camera.eye.w * in.position);
-    let view = in_base(frame, towards);
-    return Ray(towards, normalize(vec3(view.xy, max(view.z, LOWEST_VIEW))));
-}
-
-// Where in the world a ray meets the relief at a height.
-fn met_at(in: Fragment, ray: Ray, height: f32) -> vec3<f32> {
-    return in.position + ray.towards * (height * in.texel_width / ray.view.z);
+// Where in the world the ray meets the relief at a height.
+fn met_at(base: Crossing, height: f32) -> vec3<f32> {
+    return base.position + base.towards * (height * base.texel_width / base.view.z);
 }

@@ -180,6 +180,23 @@ impl Mesh {
         (center, self.positions.iter().map(|&place| vector(place).distance(center)).fold(0.0, f64::max))
     }
 
+    /// Whether the triangles enclose a volume, their outer sides out: along each edge, between places, they run as often one way as the other.
+    /// Seen from outside, only outer sides are seen.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        let (places, _) = places(&self.positions);
+        let mut runs: HashMap<_, i32> = HashMap::new();
+        let mut volume = 0.0;
+        for &triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|vertex| places[vertex as usize]);
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                *runs.entry((from.min(to), from.max(to))).or_default() += from.cmp(&to) as i32;
+            }
+            volume += DVec3::from_array(self.positions[triangle[0] as usize].map(f64::from)).dot(doubled_area(&self.positions, triangle));
+        }
+        volume > 0.0 && runs.values().all(|&runs| runs == 0)
+    }
+
     /// Sum of the areas of all triangles.
     #[must_use]
     pub fn area(&self) -> f64 {

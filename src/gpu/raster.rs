@@ -14,6 +14,17 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 /// at 1 TFLOP/s.
 const BAND_PIXELS: u32 = 1 << 18;
 
+/// What a pass draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Draws {
+    /// Triangles, the nearest of them.
+    Nearest,
+    /// Their depth alone.
+    Depth,
+    /// Every pixel once in which another pass has drawn.
+    Drawn,
+}
+
 /// A render pass, ready to draw.
 #[derive(Debug, Clone)]
 pub struct Raster {
@@ -28,7 +39,16 @@ impl Raster {
     /// # Errors
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn new(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
-        Self::of(gpu, source, library, resources, Some("fragment"))
+        Self::of(gpu, source, library, resources, Draws::Nearest)
+    }
+
+    /// As [`Self::new`], for each pixel in which another pass has drawn: the vertex stage covers the target by one triangle at the far plane.
+    /// A test against the other pass's depths spares the adapter the rest.
+    ///
+    /// # Errors
+    /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
+    pub fn over_drawn(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
+        Self::of(gpu, source, library, resources, Draws::Drawn)
     }
 
     /// As [`Self::new`], without a fragment stage: it draws the depth alone, into a layer of [`DepthLayers`](super::DepthLayers).
@@ -36,16 +56,16 @@ impl Raster {
     /// # Errors
     /// [`GpuError::Link`], [`GpuError::Shader`] or [`GpuError::Interface`].
     pub fn depth(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource]) -> Result<Self, GpuError> {
-        Self::of(gpu, source, library, resources, None)
+        Self::of(gpu, source, library, resources, Draws::Depth)
     }
 
-    fn of(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource], fragment: Option<&str>) -> Result<Self, GpuError> {
-        let raster = gpu.rasters.get_or_build(source.link(library)?, |text| Self::build(gpu, source, text, fragment))?;
+    fn of(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource], draws: Draws) -> Result<Self, GpuError> {
+        let raster = gpu.rasters.get_or_build(source.link(library)?, |text| Self::build(gpu, source, text, draws))?;
         raster.bindings.check(resources)?;
         Ok(raster)
     }
 
-    fn build(gpu: &Gpu, source: &Source, text: &str, fragment: Option<&str>) -> Result<Self, GpuError> {
+    fn build(gpu: &Gpu, source: &Source, text: &str, draws: Draws) -> Result<Self, GpuError> {
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let (bindings, _, module, layout) = kernel::build(gpu, source, text)?;
         let targets = [Some(FORMAT.into())];
@@ -61,15 +81,15 @@ impl Raster {
             primitive: wgpu::PrimitiveState::default(),
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Less),
+                depth_write_enabled: Some(draws != Draws::Drawn),
+                depth_compare: Some(if draws == Draws::Drawn { wgpu::CompareFunction::Greater } else { wgpu::CompareFunction::Less }),
                 stencil: wgpu::StencilState::default(),
                 bias: wgpu::DepthBiasState::default(),
             }),
             multisample: wgpu::MultisampleState::default(),
-            fragment: fragment.map(|entry_point| wgpu::FragmentState {
+            fragment: (draws != Draws::Depth).then(|| wgpu::FragmentState {
                 module: &module,
-                entry_point: Some(entry_point),
+                entry_point: Some("fragment"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &targets,
             }),

@@ -86,6 +86,25 @@ impl<'g> Recorder<'g> {
     /// # Panics
     /// If the bindings do not fit the render pass: the host's bug.
     pub fn draw(&mut self, raster: &Raster, binds: &[Bind<'_>], vertices: u32, cost: u32, target: &Target) {
+        self.draw_bands(raster, binds, vertices, cost, target, |is_first| {
+            let load = if is_first { wgpu::LoadOp::Clear(1.0) } else { wgpu::LoadOp::Load };
+            depth_attachment(&target.depth, Some(load))
+        });
+    }
+
+    /// As [`Self::draw`], in the pixels in which a pass has drawn into `drawn`, a target of the same size; by a pass from
+    /// [`Raster::over_drawn`].
+    ///
+    /// # Panics
+    /// If the bindings do not fit the render pass: the host's bug.
+    pub fn draw_over(&mut self, raster: &Raster, binds: &[Bind<'_>], cost: u32, drawn: &Target, target: &Target) {
+        self.draw_bands(raster, binds, 3, cost, target, |_| depth_attachment(&drawn.depth, None));
+    }
+
+    fn draw_bands<'t>(
+        &mut self, raster: &Raster, binds: &[Bind<'_>], vertices: u32, cost: u32, target: &'t Target,
+        depth: impl Fn(bool) -> wgpu::RenderPassDepthStencilAttachment<'t>,
+    ) {
         let group = raster.bindings.group(self.gpu, binds);
         for (index, [top, rows]) in target.bands(cost).enumerate() {
             let query = self.next_pass(raster.name());
@@ -98,8 +117,7 @@ impl<'g> Recorder<'g> {
                     resolve_target: None,
                     ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
                 })],
-                // Each band is drawn once: nothing of its depth is kept.
-                depth_stencil_attachment: Some(depth_attachment(&target.depth, wgpu::StoreOp::Discard)),
+                depth_stencil_attachment: Some(depth(index == 0)),
                 timestamp_writes: render_stamps(query.as_ref()),
                 ..Default::default()
             });
@@ -123,7 +141,7 @@ impl<'g> Recorder<'g> {
         let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(raster.name()),
             color_attachments: &[],
-            depth_stencil_attachment: Some(depth_attachment(&target.layers[layer], wgpu::StoreOp::Store)),
+            depth_stencil_attachment: Some(depth_attachment(&target.layers[layer], Some(wgpu::LoadOp::Clear(1.0)))),
             timestamp_writes: render_stamps(query.as_ref()),
             ..Default::default()
         });
@@ -172,9 +190,9 @@ impl<'g> Recorder<'g> {
     }
 }
 
-/// A depth that is cleared to the far plane first.
-fn depth_attachment(view: &wgpu::TextureView, store: wgpu::StoreOp) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store });
+/// Depths that are drawn, or, with nothing to load, only compared with.
+fn depth_attachment(view: &wgpu::TextureView, load: Option<wgpu::LoadOp<f32>>) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    let depth_ops = load.map(|load| wgpu::Operations { load, store: wgpu::StoreOp::Store });
     wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }
 }
 

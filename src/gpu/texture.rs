@@ -15,6 +15,38 @@ pub struct Layers {
 }
 
 impl Layers {
+    /// Rows of the longest arrays are this long: WebGPU has 8192 of them.
+    const LONG: usize = 4096;
+
+    /// Uploads arrays of one length, a layer each: value `i` is in column `i % width` of row `i / width`.
+    ///
+    /// # Errors
+    /// [`GpuError::PictureSize`] if they are longer than the adapter's textures are large, or [`GpuError::OutOfMemory`].
+    ///
+    /// # Panics
+    /// If their lengths differ: the caller's bug.
+    pub fn upload(gpu: &Gpu, label: &str, layers: &[Vec<[f32; 4]>]) -> Result<Self, GpuError> {
+        let values = layers.first().map_or(0, Vec::len);
+        let width = values.clamp(1, Self::LONG);
+        let height = values.div_ceil(width).max(1);
+        let to_u32 = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        let [columns, rows, count] = [width, height, layers.len()].map(to_u32);
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
+        let texture = allocate(gpu, label, [columns, rows, count], wgpu::TextureFormat::Rgba32Float, usage)?;
+        for (layer, array) in (0..count).zip(layers) {
+            assert_eq!(array.len(), values, "{label}: values of layer {layer}");
+            let mut padded = array.clone();
+            padded.resize(width * height, [0.0; 4]);
+            gpu.queue.write_texture(
+                wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: 0, z: layer }, ..texture.as_image_copy() },
+                bytemuck::cast_slice(&padded),
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(columns * 16), rows_per_image: Some(rows) },
+                wgpu::Extent3d { width: columns, height: rows, depth_or_array_layers: 1 },
+            );
+        }
+        Ok(Self { view: all_layers(&texture) })
+    }
+
     /// Columns are a multiple of this, since rows are copied whole.
     pub const COLUMNS: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT / 16;
 

@@ -8,9 +8,9 @@ use glam::DQuat;
 use super::{PipelineError, Progress, Studio, tiles::run};
 use crate::{
     data::{self, Camera, Channel, Light, Map, Material, MeshView, Sampling, Surroundings, Window},
-    gpu::{Gpu, Target},
+    gpu::Gpu,
     model::{ENVIRONMENT_SIZE, ENVIRONMENT_SOURCE, Relief, TexelSamples},
-    render::{Lighting, Lights, MeshBuffers, MeshPass, Output, ShadowPass, Shown, SurroundingsBuffers},
+    render::{Lighting, Lights, MeshBuffers, MeshPass, MeshTarget, Output, ShadowPass, Shown, SurroundingsBuffers},
     stage::{Average, CompressedBtf, Environment, Minify, Surface},
 };
 
@@ -194,19 +194,25 @@ impl<'g> Renderer<'g> {
         {
             let size = [TILE.min(width - left), TILE.min(height - top)];
             let pixels = size[0] as usize * size[1] as usize;
-            let [met, target] = [Target::new(self.gpu, size[0], size[1])?, Target::new(self.gpu, size[0], size[1])?];
+            let target = MeshTarget::new(self.gpu, size)?;
             let mean = self.gpu.fresh("mean picture", pixels)?;
             let shown = Shown { sampling, ..dressed.shown() };
             for sample in 0..sampling.pictures {
                 let [right, down] = within_pixel(sample, sampling.pictures);
                 let window = Window { corner: [f64::from(left) + right, f64::from(top) + down], size: size.map(f64::from) };
                 run(self.gpu, progress, "mesh_hit", [pixels, 1], |recorder| {
-                    Ok::<_, PipelineError>(self.pass.hit(recorder, shown, camera, window, &met)?)
+                    Ok::<_, PipelineError>(self.pass.hit(recorder, shown, camera, window, &target)?)
                 })?;
                 run(self.gpu, progress, "mesh", [pixels, 1], |recorder| {
-                    self.pass.shade(recorder, shown, camera, window, &met, output, &target)?;
-                    let drawn = target.record_copy(recorder)?;
-                    self.average.record(recorder, &drawn, &mean, [size[0] as usize, target.row_pixels()], [sample, sampling.pictures])
+                    self.pass.shade(recorder, shown, camera, window, output, &target)?;
+                    let drawn = target.picture.record_copy(recorder)?;
+                    self.average.record(
+                        recorder,
+                        &drawn,
+                        &mean,
+                        [size[0] as usize, target.picture.row_pixels()],
+                        [sample, sampling.pictures],
+                    )
                 })?;
             }
             for (index, value) in mean.read(self.gpu)?.into_iter().enumerate() {

@@ -32,6 +32,7 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
         let [u, v] = mesh.texture_coordinates()[vertex].map(f64::from);
         [u * tiling[0] * size[0] - 0.5, (1.0 - v) * tiling[1] * size[1] - 0.5]
     };
+    let outer_only = mesh.is_closed() && !view.silhouette && camera.eye.distance(mesh.ball().0) > mesh.ball().1;
     let source = view
         .surroundings
         .as_ref()
@@ -44,7 +45,7 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
             let [a, b, c] = corners.map(|corner| vector(mesh.positions()[corner]));
             let across = (b - a).cross(c - a);
             let along = across.dot(direction);
-            if along == 0.0 {
+            if along == 0.0 || (outer_only && along > 0.0) {
                 continue;
             }
             let distance = across.dot(a - origin) / along;

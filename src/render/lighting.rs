@@ -4,7 +4,7 @@
 //! A light's map shows the ball around the mesh; a light inside of it has six, one for each side of a cube. Maps do not depend on the camera:
 //! they are drawn once for all pictures under the same lights.
 
-use super::mesh::{MeshBuffers, Vertex, clip_rows};
+use super::mesh::{MeshBuffers, clip_rows};
 use crate::{
     data::{Light, ShadowView},
     gpu::{Bind, Buffer, DepthLayers, Gpu, GpuError, Raster, Recorder, Resource, bind, bind_depth_layers},
@@ -71,7 +71,8 @@ impl ShadowPass {
     /// # Errors
     /// [`GpuError`] if the driver refuses it.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let resources = [Resource::uniform::<Shadow>("shadow"), Resource::read::<Vertex>("vertices"), Resource::read::<u32>("corners")];
+        let [vertices, corners] = MeshBuffers::resources();
+        let resources = [Resource::uniform::<Shadow>("shadow"), vertices, corners];
         Ok(Self { raster: Raster::depth(gpu, &wgsl::SHADOW, wgsl::ALL, &resources)? })
     }
 
@@ -97,8 +98,8 @@ impl ShadowPass {
             for view in light.shadow_views(center, radius, side) {
                 let [clip_x, clip_y, clip_z, clip_w] = clip_rows(view.camera.clip_from_world(view.camera.whole()));
                 let shadow = gpu.uniform("shadow", &Shadow { clip_x, clip_y, clip_z, clip_w })?;
-                let binds = [bind("shadow", &shadow), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)];
-                recorder.draw_depth(&self.raster, &binds, count(mesh.corners.len()), &shadows, layer);
+                let [vertices, corners] = mesh.binds();
+                recorder.draw_depth(&self.raster, &[bind("shadow", &shadow), vertices, corners], mesh.drawn(), &shadows, layer);
                 let ShadowView { side: through, width, .. } = view;
                 let shadow_texel = single(width / f64::from(side));
                 let side = through.unwrap_or(ALL_AROUND);

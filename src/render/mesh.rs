@@ -2,14 +2,18 @@
 //! part is made from, shades it; twin [`reference::mesh`](crate::reference::mesh).
 //!
 //! The mesh is the base plane: rays are followed through the relief from where they cross it, in the frame of tangent, bitangent and normal
-//! there. A texel is as wide in the world as the triangle's texture coordinates make it, on the mean of both directions.
+//! there. A texel is as wide in the world as the triangle's texture coordinates make it, on the mean of both directions. Of a closed mesh
+//! seen from outside, outer sides alone are drawn: at grazing angles inner ones could stand before the depths of the relief.
+//!
+//! Shading takes most of the time. Where it was done as the triangles were drawn, what was hidden was shaded too, since depths come from the
+//! relief, and so were the neighbours of each triangle's edge pixels; on llvmpipe a sphere took three times as long.
 
 use glam::{DMat4, DVec3};
 
 use super::{Lighting, SurroundingsBuffers};
 use crate::{
     data::{Camera, Mesh, Sampling, Window},
-    gpu::{Bind, Buffer, Gpu, GpuError, Raster, Recorder, Resource, Target, bind, bind_target},
+    gpu::{Bind, Buffer, Gpu, GpuError, Layers, Raster, Recorder, Resource, Target, bind, bind_layers, bind_target},
     gpu_struct,
     model::{Relief, TexelSamples},
     stage::{CompressedBtf, HeightField, Scene, Surface, count, single},
@@ -30,12 +34,11 @@ gpu_struct! {
         rays: u32,
         footprint: f32,
         sheet: [f32; 2],
+        size: [f32; 2],
+        outer_only: u32,
+        _pad: u32,
         environment: [f32; 4],
     }
-}
-gpu_struct! {
-    /// A vertex, as the shaders have it.
-    pub struct Vertex { position: [f32; 3], u: f32, normal: [f32; 3], v: f32, tangent: [f32; 3], handedness: f32 }
 }
 
 /// What a picture shows.
@@ -73,9 +76,12 @@ pub struct Shown<'a> {
 /// A mesh in adapter memory.
 #[derive(Debug)]
 pub struct MeshBuffers {
-    pub(super) vertices: Buffer<Vertex>,
-    pub(super) corners: Buffer<u32>,
+    /// Positions and u, normals and v, tangents and handedness.
+    vertices: Layers,
+    corners: Layers,
+    triangles: u32,
     ball: (DVec3, f64),
+    is_closed: bool,
     tiling: [f32; 2],
 }
 
@@ -86,27 +92,66 @@ impl MeshBuffers {
     /// [`GpuError`] if it does not fit the adapter.
     pub fn upload(gpu: &Gpu, mesh: &Mesh, tiling: [f64; 2]) -> Result<Self, GpuError> {
         let [across, up] = tiling.map(single);
-        let vertices: Vec<_> = (0..mesh.positions().len())
-            .map(|vertex| {
-                let [x, y, z, handedness] = mesh.tangents()[vertex];
-                let [u, v] = mesh.texture_coordinates()[vertex];
-                Vertex {
-                    position: mesh.positions()[vertex],
-                    u: u * across,
-                    normal: mesh.normals()[vertex],
-                    v: v * up,
-                    tangent: [x, y, z],
-                    handedness,
-                }
-            })
-            .collect();
-        let corners = gpu.upload("corners", mesh.triangles().as_flattened())?;
-        Ok(Self { vertices: gpu.upload("vertices", &vertices)?, corners, ball: mesh.ball(), tiling: [across, up] })
+        let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
+        let coordinates = mesh.texture_coordinates();
+        let positions = mesh.positions().iter().zip(coordinates).map(|(&position, [u, _])| with(position, u * across));
+        let normals = mesh.normals().iter().zip(coordinates).map(|(&normal, [_, v])| with(normal, v * up));
+        let vertices = [positions.collect(), normals.collect(), mesh.tangents().to_vec()];
+        #[expect(clippy::cast_precision_loss, reason = "fewer than 2^24")]
+        let corners = mesh.triangles().iter().map(|&corners| with(corners.map(|corner| corner as f32), 0.0)).collect();
+        Ok(Self {
+            vertices: Layers::upload(gpu, "vertices", &vertices)?,
+            corners: Layers::upload(gpu, "corners", &[corners])?,
+            triangles: count(mesh.triangles().len()),
+            ball: mesh.ball(),
+            is_closed: mesh.is_closed(),
+            tiling: [across, up],
+        })
+    }
+
+    /// What a pass that imports `mesh_vertices` declares.
+    pub(super) fn resources() -> [Resource; 2] {
+        [Resource::layers("vertices"), Resource::layers("corners")]
+    }
+
+    /// What it binds.
+    pub(super) fn binds(&self) -> [Bind<'_>; 2] {
+        [bind_layers("vertices", &self.vertices), bind_layers("corners", &self.corners)]
+    }
+
+    /// Vertices that draw it.
+    pub(super) fn drawn(&self) -> u32 {
+        3 * self.triangles
+    }
+
+    /// Whether `camera` sees its outer sides alone.
+    fn shows_outer_sides(&self, camera: &Camera) -> bool {
+        let (center, radius) = self.ball;
+        self.is_closed && camera.eye.distance(center) > radius
     }
 
     /// Center and radius of a ball around the mesh.
     pub(super) fn ball(&self) -> (DVec3, f64) {
         self.ball
+    }
+}
+
+/// What is drawn into: all of a picture, or a part.
+#[derive(Debug)]
+pub struct MeshTarget {
+    /// Of each pixel the place and height of the point it sees, in texels, and the triangle, counted from 1.
+    met: Target,
+    /// What it shows.
+    pub picture: Target,
+}
+
+impl MeshTarget {
+    /// One of these columns and rows.
+    ///
+    /// # Errors
+    /// [`GpuError::PictureSize`] if it is empty or past the adapter's texture size, or [`GpuError::OutOfMemory`].
+    pub fn new(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<Self, GpuError> {
+        Ok(Self { met: Target::new(gpu, width, height)?, picture: Target::new(gpu, width, height)? })
     }
 }
 
@@ -124,7 +169,8 @@ impl MeshPass {
     /// # Errors
     /// [`GpuError`] if the driver refuses one.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let base = [Resource::uniform::<CameraParams>("camera"), Resource::read::<Vertex>("vertices"), Resource::read::<u32>("corners")];
+        let [vertices, corners] = MeshBuffers::resources();
+        let base = [Resource::uniform::<CameraParams>("camera"), vertices, corners];
         let with = |bare: Vec<Resource>| {
             let mut resources = [Surface::painted_resources(), bare, base.to_vec()].concat();
             resources.extend(Lighting::resources());
@@ -134,33 +180,32 @@ impl MeshPass {
         };
         Ok(Self {
             hit: Raster::new(gpu, &wgsl::MESH_HIT, wgsl::ALL, &[&HeightField::resources()[..], &base].concat())?,
-            svbrdf: Raster::new(gpu, &wgsl::MESH_SVBRDF, wgsl::ALL, &with(Surface::bare_resources()))?,
-            lpca: Raster::new(gpu, &wgsl::MESH_LPCA, wgsl::ALL, &with(CompressedBtf::resources()))?,
+            svbrdf: Raster::over_drawn(gpu, &wgsl::MESH_SVBRDF, wgsl::ALL, &with(Surface::bare_resources()))?,
+            lpca: Raster::over_drawn(gpu, &wgsl::MESH_LPCA, wgsl::ALL, &with(CompressedBtf::resources()))?,
         })
     }
 
-    /// Finds what each pixel of `met`, the part `window` of the camera's picture, sees of `shown`: place and height of the point, in texels,
-    /// and its triangle, counted from 1.
+    /// Finds what each pixel of `target`, the part `window` of the camera's picture, sees of `shown`.
     ///
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
     pub fn hit(
-        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, met: &Target,
+        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, target: &MeshTarget,
     ) -> Result<(), GpuError> {
         let uniforms = Uniforms::new(recorder.gpu(), shown, camera, window, Output::Radiance)?;
         let binds = [&shown.surface.field.binds(&uniforms.scene)[..], &uniforms.binds(shown.mesh)].concat();
-        recorder.draw(&self.hit, &binds, count(shown.mesh.corners.len()), 1, met);
+        recorder.draw(&self.hit, &binds, shown.mesh.drawn(), 1, &target.met);
         Ok(())
     }
 
-    /// Draws what `output` says of the points `met` into `target`, of the same size; all else as [`Self::hit`] had it.
+    /// Draws what `output` says of the points that [`Self::hit`] has found in the same `target`, all else as it had it.
     ///
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
     pub fn shade(
-        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, met: &Target, output: Output,
-        target: &Target,
+        &self, recorder: &mut Recorder<'_>, shown: Shown<'_>, camera: &Camera, window: Window, output: Output, target: &MeshTarget,
     ) -> Result<(), GpuError> {
+        let MeshTarget { met, picture } = target;
         let gpu = recorder.gpu();
         let uniforms = Uniforms::new(gpu, shown, camera, window, output)?;
         let mut binds = shown.surface.painted_binds(&uniforms.scene);
@@ -168,19 +213,18 @@ impl MeshPass {
         binds.extend(shown.lighting.binds());
         binds.extend(shown.surroundings.binds());
         binds.push(bind_target("met", met));
-        let vertices = count(shown.mesh.corners.len());
         // The most rays of a pixel, each under all lights.
         let rays = shown.sampling.rays.max(1);
         let cost = (rays * rays * shown.lighting.count().max(1)).div_ceil(4);
         match shown.compressed {
             None => {
                 binds.extend(shown.surface.bare_binds());
-                recorder.draw(&self.svbrdf, &binds, vertices, cost, target);
+                recorder.draw_over(&self.svbrdf, &binds, cost, met, picture);
             }
             Some((btf, texel_samples)) => {
                 let params = btf.params(gpu, texel_samples)?;
                 binds.extend::<Vec<Bind<'_>>>(btf.binds(&params));
-                recorder.draw(&self.lpca, &binds, vertices, cost, target);
+                recorder.draw_over(&self.lpca, &binds, cost, met, picture);
             }
         }
         Ok(())
@@ -213,12 +257,17 @@ impl Uniforms {
             clip_w,
             environment: shown.surroundings.params(),
             sheet: [0, 1].map(|axis| mesh.tiling[axis] * texels[axis]),
+            size: window.size.map(single),
+            // What is seen through a relief has inner sides.
+            outer_only: (!shown.silhouette && mesh.shows_outer_sides(camera)).into(),
+            ..Default::default()
         };
         Ok(Self { scene: surface.unlit_scene(gpu, shown.relief)?, camera: gpu.uniform("camera", &params)? })
     }
 
     fn binds<'a>(&'a self, mesh: &'a MeshBuffers) -> [Bind<'a>; 3] {
-        [bind("camera", &self.camera), bind("vertices", &mesh.vertices), bind("corners", &mesh.corners)]
+        let [vertices, corners] = mesh.binds();
+        [bind("camera", &self.camera), vertices, corners]
     }
 }
 

@@ -6,6 +6,6 @@ mod plane;
 mod surroundings;
 
 pub use lighting::{Lighting, Lights, ShadowPass};
-pub use mesh::{MeshBuffers, MeshPass, Output, Shown};
+pub use mesh::{MeshBuffers, MeshPass, MeshTarget, Output, Shown};
 pub use plane::Plane;
 pub use surroundings::SurroundingsBuffers;

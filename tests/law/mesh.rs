@@ -88,6 +88,7 @@ fn frames_of_a_loaded_model_are_orthonormal(data: &Path) {
     let mesh = &loaded.mesh;
     hold_frames("mesh: frames of spot.obj", mesh);
     assert_eq!(mesh.triangles().len(), 5856);
+    assert!(mesh.is_closed());
     // It has texture coordinates, which are continuous but for seams, and no normals.
     assert!((2930..3500).contains(&mesh.positions().len()) && loaded.warnings.len() == 1 && loaded.warnings[0].contains("normals"));
     let [low, high] = mesh.bounds();
@@ -158,6 +159,7 @@ fn surfaces_are_closed() {
     assert_eq!(euler(&Shape::TorusKnot.mesh()), (0, true));
     assert_eq!(euler(&Shape::Plane.mesh()), (1, false));
     assert_eq!(euler(&Shape::Cloth.mesh()), (1, false));
+    assert_eq!(Shape::ALL.map(|shape| shape.mesh().is_closed()), [false, true, true, false]);
 }
 
 /// A chord of angle x is short by x²/24. On the sphere that is so along both directions; the mean of a cell's two parallels is short by x²/12 of
