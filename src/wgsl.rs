@@ -113,9 +113,9 @@ sources! {
     MESH_VERTICES = "kernels/common" "mesh_vertices";
     /// What each pixel sees of a mesh that wears a material.
     MESH_HIT = "shaders" "mesh_hit";
-    /// Of it, the bare part by local PCA.
+    /// A mesh that wears a material, its bare part by local PCA.
     MESH_LPCA = "shaders" "mesh_lpca";
-    /// Of it, the bare part by reflectance.
+    /// A mesh that wears a material, its bare part by reflectance.
     MESH_SVBRDF = "shaders" "mesh_svbrdf";
     /// Reflection at a paint's surface.
     MICROFACET = "kernels/common" "microfacet";

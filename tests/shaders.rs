@@ -39,6 +39,8 @@ fn every_pass_links_and_validates() {
             let accesses: Vec<_> = reached.map(|((_, resource), _)| resource.access).collect();
             let count = |of: &[Access]| accesses.iter().filter(|access| of.contains(access)).count();
             let (uniforms, storage) = (count(&[Access::Uniform]), count(&[Access::Read, Access::ReadWrite]));
+            let textures = count(&[Access::Layers, Access::DepthLayers]);
+            assert!(textures <= 16, "{}: more than WebGPU's sixteen textures a stage", source.name);
             assert!(storage <= 8, "{}: more than WebGPU's eight storage buffers a stage", source.name);
             assert!(uniforms <= 12, "{}: more than WebGPU's twelve uniforms a stage", source.name);
         }

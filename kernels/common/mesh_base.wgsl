@@ -42,6 +42,8 @@ const OUTPUT_PAINT: u32 = 2u;
 
 // A view that a smooth normal turns away from, though the triangle is seen, counts as this low above the base plane.
 const LOWEST_VIEW: f32 = 0.02;
+// Bound of a vertex's share's change from a pixel to the next: of a needle this fraction of a pixel wide.
+const STEEPEST: f32 = 1024.0;
 
 // Where a view ray crosses the mesh.
 struct Crossing {
@@ -85,7 +87,7 @@ fn direction_or(vector: vec3<f32>, other: vec3<f32>) -> vec3<f32> {
 }
 
 // The crossing of a triangle, counted from 1, with the ray of a point of the picture, in pixels. A vertex's share is, up to a common factor,
-// linear in the picture (Olano, Greer 1997); taken about the point itself, small triangles far away lose no digits.
+// linear in the picture (Olano, Greer 1997); taken about the point itself, it loses the fewest digits where triangles are small.
 fn crossing_of(triangle: u32, pixel: vec2<f32>) -> Crossing {
     let corners = triangle_corners(triangle - 1u);
     let a = vertex_at(corners.x);
@@ -98,9 +100,14 @@ fn crossing_of(triangle: u32, pixel: vec2<f32>) -> Crossing {
     // Rows: change to the right and upwards, and value, of each vertex's share.
     let planes = transpose(mat3x3(cross(seen_b, seen_c), cross(seen_c, seen_a), cross(seen_a, seen_b)));
     let sums = vec3(1.0) * planes;
-    let shares = planes[2] / sums.z;
-    let right = (planes[0] - sums.x * shares) / sums.z * (2.0 / camera.size.x);
-    let down = (planes[1] - sums.y * shares) / sums.z * (-2.0 / camera.size.y);
+    // An adapter draws corners at places of its grid, so that a pixel's middle may lie a little outside; of a needle that is far.
+    let facing = select(-1.0, 1.0, sums.z > 0.0);
+    let inside = max(facing * planes[2], vec3(0.0));
+    let whole = dot(inside, vec3(1.0));
+    let shares = select(vec3(1.0 / 3.0), inside / whole, whole > 0.0);
+    let pixels = select(vec2(0.0), vec2(2.0, -2.0) / (sums.z * camera.size), sums.z != 0.0);
+    let right = clamp((planes[0] - sums.x * shares) * pixels.x, vec3(-STEEPEST), vec3(STEEPEST));
+    let down = clamp((planes[1] - sums.y * shares) * pixels.y, vec3(-STEEPEST), vec3(STEEPEST));
 
     let places = mat3x2(place_of(a), place_of(b), place_of(c));
     // World units that a texel is wide: the root of the triangle's area over that in texels. Of no texels, none: it shows one and no relief.
@@ -118,7 +125,7 @@ fn crossing_of(triangle: u32, pixel: vec2<f32>) -> Crossing {
     out.tangent = direction_or(tangent - dot(tangent, outside) * outside, a.tangent);
     out.bitangent = a.handedness * cross(outside, out.tangent);
     // From the back a sheet shows the same relief, mirrored.
-    out.normal = select(-outside, outside, sums.z > 0.0);
+    out.normal = select(-outside, outside, facing > 0.0);
     out.towards = normalize(camera.eye.xyz - camera.eye.w * out.position);
     let view = in_base(out, out.towards);
     out.view = normalize(vec3(view.xy, max(view.z, LOWEST_VIEW)));

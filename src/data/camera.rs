@@ -93,6 +93,12 @@ impl Camera {
         }
     }
 
+    /// Whether a ball, of this center and radius, lies beyond the near plane.
+    #[must_use]
+    pub fn is_before(&self, (center, radius): (DVec3, f64)) -> bool {
+        self.toward().dot(self.eye - center) - radius >= self.depths[0]
+    }
+
     /// All of the picture.
     #[must_use]
     pub fn whole(&self) -> Window {

@@ -180,27 +180,51 @@ impl Mesh {
         (center, self.positions.iter().map(|&place| vector(place).distance(center)).fold(0.0, f64::max))
     }
 
-    /// Whether the triangles enclose a volume, their outer sides out: along each edge, between places, they run as often one way as the other.
-    /// Seen from outside, only outer sides are seen.
+    /// Whether each connected part of it encloses a volume, its outer side out: along each edge, between places, triangles run as often one way
+    /// as the other. Seen from outside, only outer sides are seen.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        let (places, _) = places(&self.positions);
+        let (places, count) = places(&self.positions);
+        let mut parts = Parts((0..count).collect());
         let mut runs: HashMap<_, i32> = HashMap::new();
-        let mut volume = 0.0;
-        for &triangle in &self.triangles {
+        for triangle in &self.triangles {
             let [a, b, c] = triangle.map(|vertex| places[vertex as usize]);
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 *runs.entry((from.min(to), from.max(to))).or_default() += from.cmp(&to) as i32;
+                parts.join(from, to);
             }
-            volume += DVec3::from_array(self.positions[triangle[0] as usize].map(f64::from)).dot(doubled_area(&self.positions, triangle));
         }
-        volume > 0.0 && runs.values().all(|&runs| runs == 0)
+        let mut volumes: HashMap<_, f64> = HashMap::new();
+        for &triangle in &self.triangles {
+            let corner = DVec3::from_array(self.positions[triangle[0] as usize].map(f64::from));
+            *volumes.entry(parts.of(places[triangle[0] as usize])).or_default() += corner.dot(doubled_area(&self.positions, triangle));
+        }
+        runs.values().all(|&runs| runs == 0) && volumes.values().all(|&volume| volume > 0.0)
     }
 
     /// Sum of the areas of all triangles.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.triangles.iter().map(|&triangle| 0.5 * doubled_area(&self.positions, triangle).length()).sum()
+    }
+}
+
+/// Connected parts of a mesh, each by one of its places (Tarjan 1975: disjoint sets).
+struct Parts(Vec<u32>);
+
+impl Parts {
+    /// The place that stands for the part of `place`.
+    fn of(&mut self, mut place: u32) -> u32 {
+        while self.0[place as usize] != place {
+            self.0[place as usize] = self.0[self.0[place as usize] as usize];
+            place = self.0[place as usize];
+        }
+        place
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.of(a), self.of(b));
+        self.0[a.max(b) as usize] = a.min(b);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use pollster::block_on;
 
-use super::{GpuError, Kernel, Raster, Recorder, Submission, kernel::Built};
+use super::{GpuError, Kernel, Raster, Recorder, Submission, kernel::Built, raster::Draws};
 
 /// What a user needs to know to choose an adapter.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -79,8 +79,8 @@ pub fn adapters() -> Vec<AdapterSummary> {
 pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
-    pub(super) kernels: Built<Kernel>,
-    pub(super) rasters: Built<Raster>,
+    pub(super) kernels: Built<String, Kernel>,
+    pub(super) rasters: Built<(Draws, String), Raster>,
     adapter: AdapterSummary,
 }
 

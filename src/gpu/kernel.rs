@@ -2,6 +2,7 @@
 
 use std::{
     collections::HashMap,
+    hash::Hash,
     num::NonZeroU64,
     sync::{Mutex, PoisonError},
 };
@@ -72,27 +73,27 @@ impl Grid {
     }
 }
 
-/// The passes of one kind that a device has built, by their linked text. Stages are built where they are used, and so again and again; a
-/// driver takes a tenth of a second and more for each.
+/// The passes of one kind that a device has built, by all that makes them what they are: their linked text and more. Stages are built where
+/// they are used, and so again and again; a driver takes a tenth of a second and more for each.
 #[derive(Debug)]
-pub(super) struct Built<T>(Mutex<HashMap<String, T>>);
+pub(super) struct Built<K, T>(Mutex<HashMap<K, T>>);
 
-impl<T> Default for Built<T> {
+impl<K, T> Default for Built<K, T> {
     fn default() -> Self {
         Self(Mutex::default())
     }
 }
 
-impl<T: Clone> Built<T> {
-    /// The pass of this text; `build` makes it if there is none yet.
-    pub(super) fn get_or_build(&self, text: String, build: impl FnOnce(&str) -> Result<T, GpuError>) -> Result<T, GpuError> {
+impl<K: Eq + Hash, T: Clone> Built<K, T> {
+    /// The pass of this key; `build` makes it if there is none yet.
+    pub(super) fn get_or_build(&self, key: K, build: impl FnOnce(&K) -> Result<T, GpuError>) -> Result<T, GpuError> {
         let built = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pass) = built().get(&text) {
+        if let Some(pass) = built().get(&key) {
             return Ok(pass.clone());
         }
         // Another thread may build the same meanwhile: either serves.
-        let pass = build(&text)?;
-        built().insert(text, pass.clone());
+        let pass = build(&key)?;
+        built().insert(key, pass.clone());
         Ok(pass)
     }
 }

@@ -15,8 +15,8 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 const BAND_PIXELS: u32 = 1 << 18;
 
 /// What a pass draws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Draws {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Draws {
     /// Triangles, the nearest of them.
     Nearest,
     /// Their depth alone.
@@ -60,7 +60,7 @@ impl Raster {
     }
 
     fn of(gpu: &Gpu, source: &Source, library: &[Source], resources: &[Resource], draws: Draws) -> Result<Self, GpuError> {
-        let raster = gpu.rasters.get_or_build(source.link(library)?, |text| Self::build(gpu, source, text, draws))?;
+        let raster = gpu.rasters.get_or_build((draws, source.link(library)?), |(_, text)| Self::build(gpu, source, text, draws))?;
         raster.bindings.check(resources)?;
         Ok(raster)
     }

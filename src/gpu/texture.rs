@@ -15,7 +15,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Rows of the longest arrays are this long: WebGPU has 8192 of them.
+    /// Columns of arrays longer than that; with WebGPU's 8192 rows they hold 2^25 values.
     const LONG: usize = 4096;
 
     /// Uploads arrays of one length, a layer each: value `i` is in column `i % width` of row `i / width`.
@@ -25,7 +25,7 @@ impl Layers {
     ///
     /// # Panics
     /// If their lengths differ: the caller's bug.
-    pub fn upload(gpu: &Gpu, label: &str, layers: &[Vec<[f32; 4]>]) -> Result<Self, GpuError> {
+    pub fn upload<const N: usize>(gpu: &Gpu, label: &str, layers: [Vec<[f32; 4]>; N]) -> Result<Self, GpuError> {
         let values = layers.first().map_or(0, Vec::len);
         let width = values.clamp(1, Self::LONG);
         let height = values.div_ceil(width).max(1);
@@ -33,9 +33,8 @@ impl Layers {
         let [columns, rows, count] = [width, height, layers.len()].map(to_u32);
         let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
         let texture = allocate(gpu, label, [columns, rows, count], wgpu::TextureFormat::Rgba32Float, usage)?;
-        for (layer, array) in (0..count).zip(layers) {
-            assert_eq!(array.len(), values, "{label}: values of layer {layer}");
-            let mut padded = array.clone();
+        for (layer, mut padded) in (0..count).zip(layers) {
+            assert_eq!(padded.len(), values, "{label}: values of layer {layer}");
             padded.resize(width * height, [0.0; 4]);
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: 0, z: layer }, ..texture.as_image_copy() },

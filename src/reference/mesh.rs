@@ -1,4 +1,5 @@
-//! Twin of the mesh passes: a ray a pixel, cut with every triangle; of the points met in the relief the nearest is seen.
+//! Twin of the mesh passes: a ray a pixel, cut with every triangle; of the points met in the relief the nearest is seen, of a
+//! closed mesh's outer sides alone if it is seen from outside.
 
 use glam::{DQuat, DVec3};
 
@@ -32,7 +33,7 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
         let [u, v] = mesh.texture_coordinates()[vertex].map(f64::from);
         [u * tiling[0] * size[0] - 0.5, (1.0 - v) * tiling[1] * size[1] - 0.5]
     };
-    let outer_only = mesh.is_closed() && !view.silhouette && camera.eye.distance(mesh.ball().0) > mesh.ball().1;
+    let outer_only = mesh.is_closed() && !view.silhouette && camera.is_before(mesh.ball());
     let source = view
         .surroundings
         .as_ref()

@@ -5,8 +5,8 @@
 //! there. A texel is as wide in the world as the triangle's texture coordinates make it, on the mean of both directions. Of a closed mesh
 //! seen from outside, outer sides alone are drawn: at grazing angles inner ones could stand before the depths of the relief.
 //!
-//! Shading takes most of the time. Where it was done as the triangles were drawn, what was hidden was shaded too, since depths come from the
-//! relief, and so were the neighbours of each triangle's edge pixels; on llvmpipe a sphere took three times as long.
+//! Shading takes most of the time and so is done last, once a pixel: as triangles are drawn it would also be done for what turns out hidden,
+//! since depths come from the relief, and for the neighbours of the pixels at their edges.
 
 use glam::{DMat4, DVec3};
 
@@ -100,8 +100,8 @@ impl MeshBuffers {
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^24")]
         let corners = mesh.triangles().iter().map(|&corners| with(corners.map(|corner| corner as f32), 0.0)).collect();
         Ok(Self {
-            vertices: Layers::upload(gpu, "vertices", &vertices)?,
-            corners: Layers::upload(gpu, "corners", &[corners])?,
+            vertices: Layers::upload(gpu, "vertices", vertices)?,
+            corners: Layers::upload(gpu, "corners", [corners])?,
             triangles: count(mesh.triangles().len()),
             ball: mesh.ball(),
             is_closed: mesh.is_closed(),
@@ -122,12 +122,6 @@ impl MeshBuffers {
     /// Vertices that draw it.
     pub(super) fn drawn(&self) -> u32 {
         3 * self.triangles
-    }
-
-    /// Whether `camera` sees its outer sides alone.
-    fn shows_outer_sides(&self, camera: &Camera) -> bool {
-        let (center, radius) = self.ball;
-        self.is_closed && camera.eye.distance(center) > radius
     }
 
     /// Center and radius of a ball around the mesh.
@@ -198,7 +192,7 @@ impl MeshPass {
         Ok(())
     }
 
-    /// Draws what `output` says of the points that [`Self::hit`] has found in the same `target`, all else as it had it.
+    /// Draws what `output` says of the points that [`Self::hit`] has found, given the same `shown`, `camera`, `window` and `target`.
     ///
     /// # Errors
     /// [`GpuError`] if the adapter is out of memory.
@@ -259,7 +253,7 @@ impl Uniforms {
             sheet: [0, 1].map(|axis| mesh.tiling[axis] * texels[axis]),
             size: window.size.map(single),
             // What is seen through a relief has inner sides.
-            outer_only: (!shown.silhouette && mesh.shows_outer_sides(camera)).into(),
+            outer_only: (!shown.silhouette && mesh.is_closed && camera.is_before(mesh.ball)).into(),
             ..Default::default()
         };
         Ok(Self { scene: surface.unlit_scene(gpu, shown.relief)?, camera: gpu.uniform("camera", &params)? })

@@ -160,6 +160,23 @@ fn surfaces_are_closed() {
     assert_eq!(euler(&Shape::Plane.mesh()), (1, false));
     assert_eq!(euler(&Shape::Cloth.mesh()), (1, false));
     assert_eq!(Shape::ALL.map(|shape| shape.mesh().is_closed()), [false, true, true, false]);
+    // A small sphere beside a large one, and turned inside out.
+    let sphere = Shape::Sphere.mesh();
+    let both = |turned: bool| {
+        let count = sphere.positions().len() as u32;
+        let small = |place: &[f32; 3]| [0.1 * place[0] + 3.0, 0.1 * place[1], 0.1 * place[2]];
+        let other = |&[a, b, c]: &[u32; 3]| if turned { [count + a, count + c, count + b] } else { [count + a, count + b, count + c] };
+        Mesh::new(
+            sphere.positions().iter().copied().chain(sphere.positions().iter().map(small)).collect(),
+            sphere.normals().repeat(2),
+            sphere.tangents().repeat(2),
+            sphere.texture_coordinates().repeat(2),
+            sphere.triangles().iter().copied().chain(sphere.triangles().iter().map(other)).collect(),
+        )
+        .expect("is a mesh")
+        .is_closed()
+    };
+    assert!(both(false) && !both(true));
 }
 
 /// A chord of angle x is short by x²/24. On the sphere that is so along both directions; the mean of a cell's two parallels is short by x²/12 of
