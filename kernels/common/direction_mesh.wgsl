@@ -16,6 +16,8 @@ struct DirectionMesh {
 struct DirectionWeights {
     directions: vec3<u32>,
     weights: vec3<f32>,
+    // whether it lies nearer to the horizon than what is measured: in a triangle with corners outside of the unit circle
+    is_below: bool,
 }
 
 // No triangle.
@@ -81,5 +83,10 @@ fn direction_weights(mesh: DirectionMesh, direction: vec3<f32>) -> DirectionWeig
         let kept = max(inside / total - NEGLIGIBLE, vec3(0.0));
         weights = kept / (kept.x + kept.y + kept.z);
     }
-    return DirectionWeights(vec3(corners[0].z, corners[1].z, corners[2].z), weights);
+    var is_below = false;
+    for (var corner = 0u; corner < 3u; corner++) {
+        let at = bitcast<vec2<f32>>(corners[corner].xy);
+        is_below = is_below || dot(at, at) > 1.0;
+    }
+    return DirectionWeights(vec3(corners[0].z, corners[1].z, corners[2].z), weights, is_below);
 }

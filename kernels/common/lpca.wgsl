@@ -17,6 +17,11 @@ struct CompressedBtf {
     // meshes of views and lights in `directions`: first element, cells a side
     view_mesh: vec2<u32>,
     light_mesh: vec2<u32>,
+    // where the measured lights' cosines to the plane's normal begin in `directions`, four an element, as bits of f32
+    cosines: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 }
 
 @group(0) @binding(9) var<uniform> btf: CompressedBtf;
@@ -25,16 +30,30 @@ struct CompressedBtf {
 // [word][row][column]: word 0 is the cluster, the others hold two weights each as halves, the last filled up with 0
 @group(0) @binding(11) var<storage, read> texels: array<u32>;
 
-// Measured pairs around a view and a light; all weights are 0 if either is below the horizon, else they sum to 1.
+// Measured pairs around a view and a light; all weights are 0 if either is below the horizon, else they sum to 1, or to the share that is
+// left of a light nearer to the horizon than those measured.
 struct Pairs {
     samples: array<u32, 9>,
     weights: array<f32, 9>,
 }
 
+// What is left of the radiance of the lowest measured lights as a light sinks on to the horizon: it falls with the irradiance, by the cosine.
+fn left_below(lights: DirectionWeights, light: vec3<f32>) -> f32 {
+    if !lights.is_below {
+        return 1.0;
+    }
+    var cosine = 0.0;
+    for (var corner = 0u; corner < 3u; corner++) {
+        let at = lights.directions[corner];
+        cosine += lights.weights[corner] * bitcast<f32>(directions[btf.cosines + at / 4u][at % 4u]);
+    }
+    return min(light.z / max(cosine, 1e-6), 1.0);
+}
+
 fn measured_pairs(view: vec3<f32>, light: vec3<f32>) -> Pairs {
     let views = direction_weights(DirectionMesh(btf.view_mesh.x, btf.view_mesh.y), view);
     let lights = direction_weights(DirectionMesh(btf.light_mesh.x, btf.light_mesh.y), light);
-    let above = select(0.0, 1.0, view.z >= 0.0 && light.z >= 0.0);
+    let above = select(0.0, left_below(lights, light), view.z >= 0.0 && light.z >= 0.0);
     var pairs: Pairs;
     for (var pair = 0u; pair < 9u; pair++) {
         let at = views.directions[pair / 3u] * btf.lights + lights.directions[pair % 3u];

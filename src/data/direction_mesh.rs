@@ -104,6 +104,13 @@ impl DirectionMesh {
         std::array::from_fn(|corner| (self.triangles[triangle][corner].direction, kept[corner] / sum))
     }
 
+    /// Whether a direction lies nearer to the horizon than those measured: in a triangle that has a corner of the ring.
+    #[must_use]
+    pub fn is_below(&self, direction: Direction) -> bool {
+        let (triangle, _) = self.containing(stereographic(direction));
+        self.triangles[triangle].iter().any(|corner| DVec2::from_array(corner.place.map(f64::from)).length_squared() > 1.0)
+    }
+
     /// A triangle near the middle of each cell of a grid `[row][column]` of `side` by `side` over the square of ±1 around the zenith: where to
     /// begin the search for the one that holds a place.
     #[must_use]

@@ -146,8 +146,10 @@ impl OnMeshes<'_> {
             }
             rows.push(Row { label: name.clone(), cells });
         }
-        let caption =
-            format!("{}; {paint}. The thicker the stroke, the more it hides and the higher its bristles' grooves stand.", self.job.name);
+        let caption = format!(
+            "{}; {paint}. The thicker the stroke, the more it hides and the higher the ridges that its bristles leave.",
+            self.job.name
+        );
         Ok(self.job.figure(number, title, caption, ["× 1", "× 2", "× 3"].map(String::from).to_vec(), rows))
     }
 

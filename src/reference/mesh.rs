@@ -11,6 +11,8 @@ use crate::{
 
 /// A view counts as this low above the base plane at least.
 const LOWEST_VIEW: f64 = 0.02;
+/// Points met are as far along the ray as under a view this high at least.
+const LOWEST_REACH: f64 = 0.2;
 
 /// What a mesh wears.
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +77,7 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
             let ([x1, y1], [x2, y2]) = (edge(1), edge(2));
             let texel_width = (across.length() / (x1 * y2 - x2 * y1).abs()).sqrt();
             let height = if relief.displace { field.first_hit(base, toward).1 } else { field.at(base) };
-            let met = distance - height * texel_width / toward.z;
+            let met = distance - height * texel_width / toward.z.max(LOWEST_REACH);
             if met >= nearest.0 {
                 continue;
             }

@@ -11,6 +11,8 @@ pub struct CompressedBtf<'a> {
     lpca: &'a Lpca,
     views: DirectionMesh,
     lights: DirectionMesh,
+    /// Of the measured lights.
+    cosines: Vec<f64>,
     /// `[view][light]`
     samples: Map<usize>,
     boundary: Boundary,
@@ -23,7 +25,8 @@ impl<'a> CompressedBtf<'a> {
     /// [`BtfError`] if there is no pair, or one refers to no direction.
     pub fn new(lpca: &'a Lpca, views: &[Direction], lights: &[Direction], boundary: Boundary) -> Result<Self, BtfError> {
         let samples = nearest_samples(&lpca.pairs, views, lights)?;
-        Ok(Self { lpca, views: DirectionMesh::new(views), lights: DirectionMesh::new(lights), samples, boundary })
+        let cosines = lights.iter().map(|light| light.vector().z).collect();
+        Ok(Self { lpca, views: DirectionMesh::new(views), lights: DirectionMesh::new(lights), cosines, samples, boundary })
     }
 
     /// L of a texel in a sample: term_0 + Σ w_c term_c (Müller, Meseth, Klein 2003).
@@ -46,6 +49,7 @@ impl<'a> CompressedBtf<'a> {
         if view.vector().z < 0.0 || light.vector().z < 0.0 {
             return [0.0; 3];
         }
+        let sun = light;
         let [column, row] = place.map(|at| at.round() as isize);
         let wrap = |index: isize, count: usize| self.boundary.wrap(index, count);
         let (views, lights) = (self.views.weights(view), self.lights.weights(light));
@@ -64,7 +68,10 @@ impl<'a> CompressedBtf<'a> {
                 }
             }
         }
-        sum.map(|sum| (sum / total).max(0.0))
+        // The lowest measured lights' radiance falls on to the horizon with the irradiance.
+        let cosine = lights.map(|(light, weight)| weight * self.cosines[light]).iter().sum::<f64>();
+        let left = if self.lights.is_below(sun) { (sun.vector().z / cosine.max(1e-6)).min(1.0) } else { 1.0 };
+        sum.map(|sum| (left * sum / total).max(0.0))
     }
 }
 

@@ -3,7 +3,10 @@
 
 use half::f16;
 
-use super::{StageError, pack_directions, scalar::count};
+use super::{
+    StageError, pack_directions,
+    scalar::{count, single},
+};
 use crate::{
     data::{Direction, DirectionMesh, Lpca, nearest_samples},
     gpu::{Bind, Buffer, Gpu, GpuError, Resource, bind},
@@ -24,6 +27,10 @@ gpu_struct! {
         samples: u32,
         view_mesh: [u32; 2],
         light_mesh: [u32; 2],
+        cosines: u32,
+        _pad0: u32,
+        _pad1: u32,
+        _pad2: u32,
     }
 }
 
@@ -31,7 +38,7 @@ gpu_struct! {
 #[derive(Debug)]
 pub struct CompressedBtf {
     params: CompressedBtfParams,
-    /// Meshes of views and lights and the table of their samples.
+    /// Meshes of views and lights, the table of their samples and the lights' cosines.
     directions: Buffer<[u32; 4]>,
     /// `[sample][cluster][term]`, (R, G, B, 0) in reflectance units.
     terms: Buffer<[f16; 4]>,
@@ -59,11 +66,9 @@ impl CompressedBtf {
         let mut directions = Vec::new();
         let [view_mesh, light_mesh] = [views, lights].map(|measured| pack_directions(&DirectionMesh::new(measured), &mut directions));
         let table = count(directions.len());
-        directions.extend(samples.values().chunks(4).map(|chunk| {
-            let mut element = [0; 4];
-            element.iter_mut().zip(chunk).for_each(|(packed, sample)| *packed = count(*sample));
-            element
-        }));
+        extend_by_fours(&mut directions, samples.values().iter().map(|&sample| count(sample)));
+        let cosines = count(directions.len());
+        extend_by_fours(&mut directions, lights.iter().map(|light| single(light.vector().z).to_bits()));
         let terms: Vec<_> = lpca.terms.as_chunks().0.iter().map(|&[r, g, b]| [r, g, b, f16::ZERO]).collect();
         let mut texels = lpca.cluster.values().to_vec();
         for word in 0..lpca.components.div_ceil(2) {
@@ -83,6 +88,8 @@ impl CompressedBtf {
             samples: table,
             view_mesh,
             light_mesh,
+            cosines,
+            ..Default::default()
         };
         Ok(Self {
             params,
@@ -126,5 +133,17 @@ impl CompressedBtf {
     /// [`GpuError`] if the adapter is out of memory.
     pub fn params(&self, gpu: &Gpu, texel_samples: TexelSamples) -> Result<Buffer<CompressedBtfParams>, GpuError> {
         gpu.uniform("compressed BTF", &CompressedBtfParams { texel_samples: texel_samples.count(), ..self.params })
+    }
+}
+
+/// Appends values, four an element, the last filled up with 0.
+fn extend_by_fours(elements: &mut Vec<[u32; 4]>, values: impl Iterator<Item = u32>) {
+    for (index, value) in values.enumerate() {
+        if index % 4 == 0 {
+            elements.push([0; 4]);
+        }
+        if let Some(element) = elements.last_mut() {
+            element[index % 4] = value;
+        }
     }
 }

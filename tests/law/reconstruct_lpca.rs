@@ -17,7 +17,7 @@ use crate::support::{
 
 crate::suite! {
     plain: a_missing_pair_has_the_nearest_light_of_its_view, pairs_without_directions_are_refused;
-    gpu: a_measured_pair_is_its_mean_and_eigenvectors, a_constant_is_a_constant, what_is_linear_in_the_mesh_comes_back,
+    gpu: a_measured_pair_is_its_mean_and_eigenvectors, a_constant_is_a_constant, below_the_measured_lights_radiance_falls_with_the_irradiance, what_is_linear_in_the_mesh_comes_back,
         a_ramp_of_texels_comes_back, nothing_jumps_between_directions, nothing_jumps_between_texels, the_plane_goes_on_as_its_boundary_says,
         radiance_is_not_negative, what_does_not_fit_is_refused;
 }
@@ -69,11 +69,30 @@ fn a_constant_is_a_constant(gpu: &Gpu) {
                 .map(|_| ([0, 1].map(|_| random.between(-9.0, 9.0)), directions::anywhere(&mut random), directions::anywhere(&mut random)))
                 .collect();
             for ((_, view, light), found) in asked.iter().zip(radiance(gpu, &btf, texel_samples, &asked)) {
-                let expected = if view.theta <= FRAC_PI_2 && light.theta <= FRAC_PI_2 { color } else { [0.0; 3] };
+                // Below the one measured light it falls with the irradiance.
+                let left = (light.vector().z / 30.0_f64.to_radians().cos()).min(1.0);
+                let expected = if view.theta <= FRAC_PI_2 && light.theta <= FRAC_PI_2 { color.map(|c| left * c) } else { [0.0; 3] };
                 // Up to 25 weights of texels and 9 of pairs, whose sums are each rounded.
                 hold("reconstruct_lpca: a constant", worst_difference(found, expected), 1e-6);
             }
         }
+    }
+}
+
+/// As a light sinks from the lowest measured ones to the horizon, radiance falls with its cosine to 0.
+fn below_the_measured_lights_radiance_falls_with_the_irradiance(gpu: &Gpu) {
+    let directions: Vec<Direction> = "0:1,30:6,60:12".parse::<Grid>().expect("is a grid").directions();
+    let lpca = lpca::random(&mut Random::new(8), [6, 4], product(directions.len(), directions.len()), [3, 2]);
+    let btf = upload(gpu, &lpca, &directions, &directions, Boundary::Periodic);
+    let picture = |theta: f64| reconstruct(gpu, &btf, TexelSamples::One, directions[2], Direction::from_degrees(theta, 30.0));
+    let lowest = picture(60.0);
+    for theta in [60.0_f64, 65.0, 75.0, 85.0, 90.0] {
+        let left = theta.to_radians().cos() / 0.5;
+        let expected = lowest.values().iter().flat_map(|pixel| pixel.map(|value| left * f64::from(value))).collect::<Vec<_>>();
+        let found = picture(theta).values().iter().flat_map(|pixel| pixel.map(f64::from)).collect::<Vec<_>>();
+        // Only red, green and blue: the fourth component is no radiance.
+        let rgb = |values: Vec<f64>| values.into_iter().enumerate().filter(|(index, _)| index % 4 < 3).map(|(_, value)| value).collect::<Vec<_>>();
+        hold("reconstruct_lpca: a light below the measured ones", worst_difference(rgb(found), rgb(expected)), 2e-6);
     }
 }
 
