@@ -42,9 +42,9 @@ const OUTPUT_PAINT: u32 = 2u;
 
 // A view that a smooth normal turns away from, though the triangle is seen, counts as this low above the base plane.
 const LOWEST_VIEW: f32 = 0.02;
-// Points met are as far along the ray as under a view this high at least: a mesh is no plane, and at its outline points would stand before
-// its other parts.
-const LOWEST_REACH: f32 = 0.2;
+// Cosine of a view from which on the relief's depth counts less, down to nothing at a mesh's outline: there the mesh turns away from its
+// base plane, along which points would come to stand before other parts of the mesh.
+const OUTLINE: f32 = 0.5;
 // Bound of a vertex's share's change from a pixel to the next: of a needle this fraction of a pixel wide.
 const STEEPEST: f32 = 1024.0;
 
@@ -145,5 +145,6 @@ fn world_of(base: Crossing, direction: vec3<f32>) -> vec3<f32> {
 
 // Where in the world the ray meets the relief at a height.
 fn met_at(base: Crossing, height: f32) -> vec3<f32> {
-    return base.position + base.towards * (height * base.texel_width / max(base.view.z, LOWEST_REACH));
+    let reach = min(1.0 / base.view.z, base.view.z / (OUTLINE * OUTLINE));
+    return base.position + base.towards * (height * base.texel_width * reach);
 }

@@ -11,8 +11,8 @@ use crate::{
 
 /// A view counts as this low above the base plane at least.
 const LOWEST_VIEW: f64 = 0.02;
-/// Points met are as far along the ray as under a view this high at least.
-const LOWEST_REACH: f64 = 0.2;
+/// Cosine of a view from which on the relief's depth counts less.
+const OUTLINE: f64 = 0.5;
 
 /// What a mesh wears.
 #[derive(Debug, Clone, Copy)]
@@ -77,7 +77,7 @@ pub fn mesh(view: &MeshView, worn: Worn<'_>) -> Map<[f64; 4]> {
             let ([x1, y1], [x2, y2]) = (edge(1), edge(2));
             let texel_width = (across.length() / (x1 * y2 - x2 * y1).abs()).sqrt();
             let height = if relief.displace { field.first_hit(base, toward).1 } else { field.at(base) };
-            let met = distance - height * texel_width / toward.z.max(LOWEST_REACH);
+            let met = distance - height * texel_width * (1.0 / toward.z).min(toward.z / (OUTLINE * OUTLINE));
             if met >= nearest.0 {
                 continue;
             }
