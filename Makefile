@@ -11,3 +11,4 @@ demo:
 test:
 	.ci/vulkan
 	cargo test
+	cargo test --doc
