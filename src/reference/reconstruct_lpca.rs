@@ -49,7 +49,6 @@ impl<'a> CompressedBtf<'a> {
         if view.vector().z < 0.0 || light.vector().z < 0.0 {
             return [0.0; 3];
         }
-        let sun = light;
         let [column, row] = place.map(|at| at.round() as isize);
         let wrap = |index: isize, count: usize| self.boundary.wrap(index, count);
         let (views, lights) = (self.views.weights(view), self.lights.weights(light));
@@ -61,16 +60,16 @@ impl<'a> CompressedBtf<'a> {
             }
             total += weight;
             let texel = (wrap(x, self.lpca.cluster.width()), wrap(y, self.lpca.cluster.height()));
-            for (view, of_view) in views {
-                for (light, of_light) in lights {
-                    let own = self.decompressed(self.samples[(light, view)], texel);
+            for (from, of_view) in views {
+                for (toward, of_light) in lights {
+                    let own = self.decompressed(self.samples[(toward, from)], texel);
                     (0..3).for_each(|channel| sum[channel] += weight * of_view * of_light * own[channel]);
                 }
             }
         }
         // The lowest measured lights' radiance falls on to the horizon with the irradiance.
-        let cosine = lights.map(|(light, weight)| weight * self.cosines[light]).iter().sum::<f64>();
-        let left = if self.lights.is_below(sun) { (sun.vector().z / cosine.max(1e-6)).min(1.0) } else { 1.0 };
+        let cosine = lights.map(|(toward, weight)| weight * self.cosines[toward]).iter().sum::<f64>();
+        let left = if self.lights.is_below(light) { (light.vector().z / cosine.max(1e-6)).min(1.0) } else { 1.0 };
         sum.map(|sum| (left * sum / total).max(0.0))
     }
 }
